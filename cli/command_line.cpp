@@ -31,26 +31,28 @@ std::string footer() {
 }
 
 /// The help begins with examples to copy.
-std::string with_examples(const Description& verb) {
-  std::string text = verb.summary + "\n";
-  if (!verb.examples.empty()) text += "\nExamples:\n";
-  for (const Example& example : verb.examples) text += fmt::format("  # {}\n  {}\n", example.does, example.command);
+std::string with_examples(const Description& subcommand) {
+  std::string text = subcommand.summary + "\n";
+  if (!subcommand.examples.empty()) text += "\nExamples:\n";
+  for (const Example& example : subcommand.examples)
+    text += fmt::format("  # {}\n  {}\n", example.does, example.command);
   return text;
 }
 
 /// The tree of subcommands, by name and summary; only the flags of the one that is used are declared.
 class CommandLine {
  public:
-  explicit CommandLine(const std::vector<Verb>& verbs) {
+  explicit CommandLine(const std::vector<Subcommand>& subcommands) {
     app.footer(footer());
     app.set_help_flag("-h,--help", "print this help");
     app.set_version_flag("--version", program_version(), "print the version");
-    for (const Verb& verb : verbs) {
-      const std::string name = verb.name;
+    for (const Subcommand& subcommand : subcommands) {
+      const std::string name = subcommand.name;
       const auto space = name.find(' ');
       CLI::App* parent = space == std::string::npos ? &app : app.get_subcommand(name.substr(0, space));
-      CLI::App* sub = parent->add_subcommand(space == std::string::npos ? name : name.substr(space + 1), verb.summary);
-      if (verb.declare != nullptr) declare_[sub] = verb.declare;
+      CLI::App* sub =
+          parent->add_subcommand(space == std::string::npos ? name : name.substr(space + 1), subcommand.summary);
+      if (subcommand.declare != nullptr) declare_[sub] = subcommand.declare;
       subs_.push_back(sub);
     }
   }
@@ -60,15 +62,15 @@ class CommandLine {
     Description description;
   };
 
-  /// Declares the flags of `verb` and adds its examples to its help.
-  Declared declare(CLI::App& verb) const {
-    Options options(verb);
+  /// Declares the flags of `subcommand` and adds its examples to its help.
+  Declared declare(CLI::App& subcommand) const {
+    Options options(subcommand);
     Declared out;
-    const auto found = declare_.find(&verb);
+    const auto found = declare_.find(&subcommand);
     if (found != declare_.end()) out.action = found->second(options);
     out.description = options.description();
     out.description.group = found == declare_.end();
-    if (!out.description.examples.empty()) verb.description(with_examples(out.description));
+    if (!out.description.examples.empty()) subcommand.description(with_examples(out.description));
     return out;
   }
 
@@ -78,12 +80,12 @@ class CommandLine {
 
  private:
   std::map<const CLI::App*, Action (*)(Options&)> declare_;
-  std::vector<CLI::App*> subs_;  ///< in the order of `verbs`
+  std::vector<CLI::App*> subs_;  ///< in the order of `subcommands`
 };
 
-std::string called(const CLI::App& verb) {
-  std::string name = verb.get_name();
-  for (const CLI::App* app = verb.get_parent(); app != nullptr; app = app->get_parent())
+std::string called(const CLI::App& subcommand) {
+  std::string name = subcommand.get_name();
+  for (const CLI::App* app = subcommand.get_parent(); app != nullptr; app = app->get_parent())
     name = app->get_name() + " " + name;
   return name;
 }
@@ -95,48 +97,49 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
-std::vector<std::string> flag_names(const CLI::App& verb) {
+std::vector<std::string> flag_names(const CLI::App& subcommand) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb.get_options()) {
+  for (const CLI::Option* option : subcommand.get_options()) {
     for (const auto& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
 }
 
-/// `verb`: full name, as typed.
-[[noreturn]] void misused(const std::string& verb, const std::string& what, std::string fix = {}) {
-  if (fix.empty()) fix = "`" + verb + " --help` lists flags and subcommands";
+/// `subcommand`: full name, as typed.
+[[noreturn]] void misused(const std::string& subcommand, const std::string& what, std::string fix = {}) {
+  if (fix.empty()) fix = "`" + subcommand + " --help` lists flags and subcommands";
   throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = std::move(fix)});
 }
 
-[[noreturn]] void misused(const CLI::App& verb, const std::string& what, const std::string& fix = {}) {
-  misused(called(verb), what, fix);
+[[noreturn]] void misused(const CLI::App& subcommand, const std::string& what, const std::string& fix = {}) {
+  misused(called(subcommand), what, fix);
 }
 
 // Finds the subcommand that `words` name, starting at `app`; `at` becomes the index of the first remaining word.
-CLI::App* find_verb(CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
-  CLI::App* verb = &app;
+CLI::App* find_subcommand(CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
+  CLI::App* subcommand = &app;
   while (at < words.size()) {
-    const auto names = subcommand_names(*verb);
+    const auto names = subcommand_names(*subcommand);
     if (names.empty() || words[at].starts_with('-')) break;
     if (std::find(names.begin(), names.end(), words[at]) == names.end()) {
-      misused(*verb,
-              fmt::format("unknown {} '{}'", verb == &app ? "subcommand" : verb->get_name() + " subcommand", words[at]),
+      misused(*subcommand,
+              fmt::format("unknown {} '{}'", subcommand == &app ? "subcommand" : subcommand->get_name() + " subcommand",
+                          words[at]),
               suggestion(words[at], names));
     }
-    verb = verb->get_subcommand(words[at++]);
+    subcommand = subcommand->get_subcommand(words[at++]);
   }
-  return verb;
+  return subcommand;
 }
 
 // The flag that was probably meant; empty rather than a list of thirty.
-std::string near_flag(const CLI::App& verb, const std::string& flag) {
-  const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(verb)) : std::string{};
+std::string near_flag(const CLI::App& subcommand, const std::string& flag) {
+  const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(subcommand)) : std::string{};
   return hint;
 }
 
 // Reports unknown flags, missing values and repeated flags, in the user's order.
-void check_words(const CLI::App& verb, std::span<const std::string> words) {
+void check_words(const CLI::App& subcommand, std::span<const std::string> words) {
   std::map<const CLI::Option*, int> seen;
   for (std::size_t at = 0; at < words.size(); ++at) {
     const std::string& word = words[at];
@@ -147,23 +150,25 @@ void check_words(const CLI::App& verb, std::span<const std::string> words) {
     if (!is_long && !is_short) continue;
     const auto equals = word.find('=');
     const std::string flag = is_long ? word.substr(0, equals) : word.substr(0, 2);
-    const CLI::Option* option = verb.get_option_no_throw(flag);
+    const CLI::Option* option = subcommand.get_option_no_throw(flag);
     if (option == nullptr)
-      misused(verb, fmt::format("unknown flag {} of `{}`", flag, called(verb)), near_flag(verb, flag));
+      misused(subcommand, fmt::format("unknown flag {} of `{}`", flag, called(subcommand)),
+              near_flag(subcommand, flag));
     const bool repeatable = option->get_items_expected_max() > 1;
-    if (++seen[option] > 1 && !repeatable) misused(verb, flag + " is given twice", "give it once");
+    if (++seen[option] > 1 && !repeatable) misused(subcommand, flag + " is given twice", "give it once");
     if (option->get_items_expected_max() == 0) {
-      if (is_long && equals != std::string::npos) misused(verb, flag + " does not take a value", "write only " + flag);
+      if (is_long && equals != std::string::npos)
+        misused(subcommand, flag + " does not take a value", "write only " + flag);
       continue;
     }
     if (is_long ? equals != std::string::npos : word.size() > 2) {
       if (is_long && equals + 1 == word.size())
-        misused(verb, flag + " needs a value", "write " + flag + "=" + option->get_type_name());
+        misused(subcommand, flag + " needs a value", "write " + flag + "=" + option->get_type_name());
       continue;
     }
     ++at;
     const bool missing = at >= words.size() || words[at].empty() || words[at].starts_with("--");
-    if (missing) misused(verb, flag + " needs a value", "write " + flag + " " + option->get_type_name());
+    if (missing) misused(subcommand, flag + " needs a value", "write " + flag + " " + option->get_type_name());
   }
 }
 
@@ -174,85 +179,85 @@ Action print(std::string text) {
   };
 }
 
-std::string help_text(CLI::App& app, CLI::App& verb) {
-  return verb.help(&verb == &app ? "" : called(*verb.get_parent()));
+std::string help_text(CLI::App& app, CLI::App& subcommand) {
+  return subcommand.help(&subcommand == &app ? "" : called(*subcommand.get_parent()));
 }
 
 }  // namespace
 
-std::vector<std::string> flags_of(const std::string& verb, const std::vector<Verb>& verbs) {
-  CommandLine line(verbs);
+std::vector<std::string> flags_of(const std::string& subcommand, const std::vector<Subcommand>& subcommands) {
+  CommandLine line(subcommands);
   std::vector<std::string> words;
-  std::istringstream all(verb);
+  std::istringstream all(subcommand);
   for (std::string word; all >> word;) words.push_back(word);
   std::size_t at = 0;
-  CLI::App* found = find_verb(line.app, words, at);
+  CLI::App* found = find_subcommand(line.app, words, at);
   const Action action = line.declare(*found).action;
   if (at < words.size() || !action)
-    misused(line.app, "unknown subcommand '" + verb + "'", "run `fastsplat help` for the list of subcommands");
+    misused(line.app, "unknown subcommand '" + subcommand + "'", "run `fastsplat help` for the list of subcommands");
   return flag_names(*found);
 }
 
-Action parse(int argc, const char* const* argv, const std::vector<Verb>& verbs) {
-  CommandLine line(verbs);
+Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& subcommands) {
+  CommandLine line(subcommands);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   std::size_t at = 0;
-  CLI::App* verb = find_verb(line.app, words, at);
-  const Action action = line.declare(*verb).action;
+  CLI::App* subcommand = find_subcommand(line.app, words, at);
+  const Action action = line.declare(*subcommand).action;
   const std::span rest(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
   for (const auto& word : rest) {
-    if (word == "--help" || word == "-h") return print(help_text(line.app, *verb));
-    if (word == "--version" && verb == &line.app) return print("fastsplat " + program_version() + "\n");
+    if (word == "--help" || word == "-h") return print(help_text(line.app, *subcommand));
+    if (word == "--version" && subcommand == &line.app) return print("fastsplat " + program_version() + "\n");
   }
-  check_words(*verb, rest);
+  check_words(*subcommand, rest);
   if (!action) {
-    misused(*verb, fmt::format("{} requires a subcommand", called(*verb)),
-            fmt::format("add one of {}; `{} --help` describes them", fmt::join(subcommand_names(*verb), ", "),
-                        called(*verb)));
+    misused(*subcommand, fmt::format("{} requires a subcommand", called(*subcommand)),
+            fmt::format("add one of {}; `{} --help` describes them", fmt::join(subcommand_names(*subcommand), ", "),
+                        called(*subcommand)));
   }
   // Parses with the subcommand alone, so that names of other subcommands are ordinary words. Parsing clears its parent,
   // hence the name first.
-  const std::string name = called(*verb);
+  const std::string name = called(*subcommand);
   std::vector<std::string> reversed(rest.rbegin(), rest.rend());
   try {
-    verb->parse(reversed);
+    subcommand->parse(reversed);
   } catch (const CLI::ExtrasError&) {
-    const auto extra = verb->remaining(true);
+    const auto extra = subcommand->remaining(true);
     misused(name, fmt::format("unexpected '{}' after `{}`", extra.empty() ? "?" : extra.front(), name));
   } catch (const CLI::RequiredError& error) {
     misused(name, fmt::format("{}: {}", name, error.what()));
   } catch (const CLI::ParseError& error) {
     misused(name, error.what());
   }
-  if (command_again().empty()) remember_command(words);  // a plan parses other commands later
+  if (this_command().empty()) remember_command(words);  // a plan parses other commands later
   return action;
 }
 
-std::string help_on(const std::vector<std::string>& words, const std::vector<Verb>& verbs) {
-  CommandLine line(verbs);
+std::string help_on(const std::vector<std::string>& words, const std::vector<Subcommand>& subcommands) {
+  CommandLine line(subcommands);
   std::size_t at = 0;
-  CLI::App* verb = find_verb(line.app, words, at);
+  CLI::App* subcommand = find_subcommand(line.app, words, at);
   if (at < words.size())
     misused(line.app, "unexpected '" + words[at] + "' after help", "run `fastsplat help` for the list of subcommands");
-  line.declare(*verb);
-  return help_text(line.app, *verb);
+  line.declare(*subcommand);
+  return help_text(line.app, *subcommand);
 }
 
-std::vector<Description> describe(const std::vector<Verb>& verbs) {
-  CommandLine line(verbs);
+std::vector<Description> describe(const std::vector<Subcommand>& subcommands) {
+  CommandLine line(subcommands);
   Flag version{.names = {"--version"}, .unit = {}, .help = "print the version", .group = {}, .values = {}};
   std::vector<Description> all{
       {.name = {}, .summary = kSummary, .flags = {std::move(version)}, .examples = {}, .group = true}};
-  for (CLI::App* verb : line.subs()) all.push_back(line.declare(*verb).description);
+  for (CLI::App* subcommand : line.subs()) all.push_back(line.declare(*subcommand).description);
   return all;
 }
 
 const Description& described(const std::vector<std::string>& words, const std::vector<Description>& all) {
   const std::string name = fmt::format("{}", fmt::join(words, " "));
   std::vector<std::string> names;
-  for (const Description& verb : all) {
-    if (verb.name == name) return verb;
-    if (!verb.name.empty()) names.push_back(verb.name);
+  for (const Description& subcommand : all) {
+    if (subcommand.name == name) return subcommand;
+    if (!subcommand.name.empty()) names.push_back(subcommand.name);
   }
   throw_usage({.where = {},
                .what = "unknown subcommand '" + name + "'",

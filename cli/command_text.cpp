@@ -29,6 +29,6 @@ std::string command_text(std::span<const std::string> words) {
 
 void remember_command(std::span<const std::string> words) { remembered() = command_text(words); }
 
-const std::string& command_again() { return remembered(); }
+const std::string& this_command() { return remembered(); }
 
 }  // namespace fastsplat::cli

@@ -12,6 +12,6 @@ std::string command_text(std::span<const std::string> words);
 
 /// Stores the command of this process; `parse` calls it once, before any subcommand runs.
 void remember_command(std::span<const std::string> words);
-const std::string& command_again();
+const std::string& this_command();
 
 }  // namespace fastsplat::cli

@@ -16,8 +16,9 @@ std::string errors_heading(const std::string& scene, const cmodel::Config& confi
   return fmt::format("{}; configuration {} {}\n", scene, config.name, hash_text(cmodel::config_hash(config)));
 }
 
-nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config) {
-  return {{"verb", verb}, {"version", program_version()}, {"scene", scene}, {"config", priced_config_json(config)}};
+nlohmann::ordered_json errors_identity(const char* subcommand, const std::string& scene, const cmodel::Config& config) {
+  return {
+      {"verb", subcommand}, {"version", program_version()}, {"scene", scene}, {"config", priced_config_json(config)}};
 }
 
 void write_map(const std::string& path, const Image& map) {

@@ -14,8 +14,8 @@ namespace fastsplat::cli {
 
 /// "ch2bet 181x217x181, ...; configuration base 025c7da2cf5f77b2\n"; `scene` is its summary.
 std::string errors_heading(const std::string& scene, const cmodel::Config& config);
-/// {"verb", "version", "scene", "config"}
-nlohmann::ordered_json errors_identity(const char* verb, const std::string& scene, const cmodel::Config& config);
+/// {"subcommand", "version", "scene", "config"}
+nlohmann::ordered_json errors_identity(const char* subcommand, const std::string& scene, const cmodel::Config& config);
 
 /// Writes a map with its legend as a display picture.
 void write_map(const std::string& path, const Image& map);

@@ -26,10 +26,10 @@ bool Flag::takes_file() const {
 }
 bool Flag::takes_folder() const { return names_any(unit, {"FOLDER"}); }
 
-Options::Options(CLI::App& verb) : verb_(verb) {
-  for (const CLI::App* app = &verb; app->get_parent() != nullptr; app = app->get_parent())
+Options::Options(CLI::App& subcommand) : subcommand_(subcommand) {
+  for (const CLI::App* app = &subcommand; app->get_parent() != nullptr; app = app->get_parent())
     description_.name = app->get_name() + (description_.name.empty() ? "" : " " + description_.name);
-  description_.summary = verb.get_description();
+  description_.summary = subcommand.get_description();
 }
 
 void Options::describe(const char* name, const char* unit, const char* help, bool required, bool repeatable) {
@@ -41,34 +41,34 @@ void Options::describe(const char* name, const char* unit, const char* help, boo
 
 void Options::flag(const char* name, bool& to, const char* help) {
   describe(name, "", help, false, false);
-  verb_.add_flag(name, to, help)->group(group_);
+  subcommand_.add_flag(name, to, help)->group(group_);
 }
 
 void Options::words(const char* name, std::vector<std::string>& to, const char* unit, const char* help) {
   describe(name, unit, help, false, true);
-  verb_.add_option(name, to, help)->allow_extra_args(false)->type_name(unit)->group(group_);
+  subcommand_.add_option(name, to, help)->allow_extra_args(false)->type_name(unit)->group(group_);
 }
 
 void Options::value(const char* name, Problem problem, Take take, const char* unit, const char* help) {
   describe(name, unit, help, false, false);
-  CLI::Option* option = verb_.add_option_function<std::string>(name, std::move(take), help);
+  CLI::Option* option = subcommand_.add_option_function<std::string>(name, std::move(take), help);
   if (problem) option->check(CLI::Validator(std::move(problem), ""));
   option->type_name(unit)->group(group_);
 }
 
 void Options::positional(const char* name, std::string& to, const char* help) {
   describe(name, "", help, true, false);
-  verb_.add_option(name, to, help)->required();
+  subcommand_.add_option(name, to, help)->required();
 }
 
 void Options::positionals(const char* name, std::vector<std::string>& to, int least, const char* help) {
   describe(name, "", help, least > 0, true);
-  verb_.add_option(name, to, help)->expected(least, 1 << 20)->required(least > 0);
+  subcommand_.add_option(name, to, help)->expected(least, 1 << 20)->required(least > 0);
 }
 
 void Options::required(const char* name, std::string& to, const char* unit, const char* help) {
   describe(name, unit, help, true, false);
-  verb_.add_option(name, to, help)->required()->type_name(unit)->group(group_);
+  subcommand_.add_option(name, to, help)->required()->type_name(unit)->group(group_);
 }
 
 void Options::example(const std::string& command, const std::string& does, Example::Speed speed) {

@@ -26,7 +26,7 @@ class Options {
   using Problem = std::function<std::string(std::string&)>;
   using Take = std::function<void(const std::string&)>;
 
-  explicit Options(CLI::App& verb);
+  explicit Options(CLI::App& subcommand);
 
   /// Heading in the help for the flags that follow.
   void group(const std::string& title) { group_ = title; }
@@ -100,7 +100,7 @@ class Options {
   static Problem finite();
   void describe(const char* name, const char* unit, const char* help, bool required, bool repeatable);
 
-  CLI::App& verb_;
+  CLI::App& subcommand_;
   std::string group_;
   Description description_;
 };

@@ -105,7 +105,7 @@ void Output::line(const std::string& text) const {
 void Output::json(const nlohmann::ordered_json& json) const {
   if (common_.json.empty()) return;
   auto whole = json;
-  if (whole.contains("verb") && !command_again().empty()) whole["command"] = command_again();
+  if (whole.contains("verb") && !this_command().empty()) whole["command"] = this_command();
   const std::string text = json_text(whole, 2);
   if (common_.json == "-") {
     write_stdout(text + "\n");

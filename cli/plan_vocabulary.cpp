@@ -40,17 +40,17 @@ bool has(const std::vector<std::string>& flags, const std::string& flag) {
   return std::ranges::find(flags, flag) != flags.end();
 }
 
-const std::vector<std::string>& known_flags(const std::string& verb) {
+const std::vector<std::string>& known_flags(const std::string& subcommand) {
   static std::map<std::string, std::vector<std::string>> known;
-  auto& flags = known[verb];
-  if (flags.empty()) flags = flags_of(verb);
+  auto& flags = known[subcommand];
+  if (flags.empty()) flags = flags_of(subcommand);
   return flags;
 }
 
-Action parse_words(const plan::Words& words, const std::vector<Verb>& verbs) {
+Action parse_words(const plan::Words& words, const std::vector<Subcommand>& subcommands) {
   std::vector<const char*> argv{"fastsplat"};
   for (const auto& word : words) argv.push_back(word.c_str());
-  return parse(static_cast<int>(argv.size()), argv.data(), verbs);
+  return parse(static_cast<int>(argv.size()), argv.data(), subcommands);
 }
 
 /// Hash of a scene's settings and the bytes of the files it names; their paths do not count.
@@ -70,12 +70,12 @@ std::string hash_of_scene(const SceneFlags& flags) {
 /// Hash of the scene that `settings` describe, cached.
 std::string scene_hash(const plan::Settings& settings) {
   static SceneFlags flags;
-  static const std::vector<Verb> verbs{{"scene", "", [](Options& options) {
-                                          flags = {};
-                                          declare(options, flags);
-                                          return Action([] { return ExitCode::Pass; });
-                                        }}};
-  static const auto names = flags_of("scene", verbs);
+  static const std::vector<Subcommand> subcommands{{"scene", "", [](Options& options) {
+                                                      flags = {};
+                                                      declare(options, flags);
+                                                      return Action([] { return ExitCode::Pass; });
+                                                    }}};
+  static const auto names = flags_of("scene", subcommands);
   static std::map<std::string, std::string> known;
   plan::Words words{"scene"};
   for (const auto& [name, value] : settings) {
@@ -89,7 +89,7 @@ std::string scene_hash(const plan::Settings& settings) {
   }
   auto& hash = known[plan::shell_line(words)];
   if (hash.empty()) {
-    parse_words(words, verbs);
+    parse_words(words, subcommands);
     hash = hash_of_scene(flags);
   }
   return hash;
@@ -106,11 +106,11 @@ std::string config_hash(const plan::Settings& settings) {
   return hash_text(cmodel::config_hash(load(flags)));
 }
 
-plan::Content content_of(const plan::Settings& settings, const std::vector<std::string>& verbs) {
+plan::Content content_of(const plan::Settings& settings, const std::vector<std::string>& subcommands) {
   const auto set = [&](const char* name) { return std::ranges::find(settings, name, &plan::Setting::name); };
   plan::Content content;
-  for (const auto& verb : verbs) {
-    const auto& flags = known_flags(verb);
+  for (const auto& subcommand : subcommands) {
+    const auto& flags = known_flags(subcommand);
     if (content.config_hash.empty() && has(flags, "--config")) content.config_hash = config_hash(settings);
     const bool has_other = (has(flags, "--random") && set("random") != settings.end());
     if (!content.scene_hash.empty() || has_other) continue;
@@ -125,23 +125,23 @@ plan::Content content_of(const plan::Settings& settings, const std::vector<std::
   return content;
 }
 
-std::vector<std::string> verbs_of(const plan::Case& one) {
-  std::vector<std::string> verbs;
-  for (const auto& step : one.steps) verbs.push_back(step.result.empty() ? step.words.front() : step.result);
-  return verbs;
+std::vector<std::string> subcommands_of(const plan::Case& one) {
+  std::vector<std::string> subcommands;
+  for (const auto& step : one.steps) subcommands.push_back(step.result.empty() ? step.words.front() : step.result);
+  return subcommands;
 }
 
 }  // namespace
 
 plan::Vocabulary plan_vocabulary() {
-  return {.flags_of = [](const std::string& verb) { return known_flags(verb); },
-          .check = [](const plan::Words& words) { parse_words(words, all_verbs()); },
+  return {.flags_of = [](const std::string& subcommand) { return known_flags(subcommand); },
+          .check = [](const plan::Words& words) { parse_words(words, all_subcommands()); },
           .content = content_of};
 }
 
 void require_content(const plan::Plan& plan, const std::string& plan_file) {
   for (const auto& one : plan.cases) {
-    if (content_of(one.settings, verbs_of(one)) == one.content) continue;
+    if (content_of(one.settings, subcommands_of(one)) == one.content) continue;
     throw_input(
         {.where = plan_file,
          .what = fmt::format("case {}: its configuration or scene changed after the plan was made", one.id),

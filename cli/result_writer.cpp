@@ -5,7 +5,7 @@
 
 namespace fastsplat::cli {
 
-void LateResults::write(const std::function<void()>& write) {
+void ResultWriter::write(const std::function<void()>& write) {
   try {
     write();
   } catch (const UserError& error) {
@@ -14,7 +14,7 @@ void LateResults::write(const std::function<void()>& write) {
   }
 }
 
-ExitCode LateResults::tell(ExitCode run, const Output& output) const {
+ExitCode ResultWriter::tell(ExitCode run, const Output& output) const {
   for (const std::string& why : unwritten_) run == ExitCode::Pass ? print_error(why) : output.warn(why);
   return run == ExitCode::Pass ? first_ : run;
 }

@@ -11,7 +11,7 @@
 
 namespace fastsplat::cli {
 
-class LateResults {
+class ResultWriter {
  public:
   /// Calls `write`. A UserError from it is kept for tell(); other exceptions propagate.
   void write(const std::function<void()>& write);

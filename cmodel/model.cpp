@@ -89,9 +89,9 @@ void Model::load(const LoadTable& table) {
 void Model::begin_tile(const BeginTile& tile) {
   tile_ = tile;
   sheet_number_ = 0;
-  rim_ = DensityStage::rim(tile.mode);
-  sheet_.begin_tile(tile.width + 2 * rim_, tile.height + 2 * rim_);
-  if (rim_ > 0) densities_.begin_tile(tile, frame_);
+  halo_ = DensityStage::halo(tile.mode);
+  sheet_.begin_tile(tile.width + 2 * halo_, tile.height + 2 * halo_);
+  if (halo_ > 0) densities_.begin_tile(tile, frame_);
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
   cull_.begin_tile(tile.mode, tile.width, tile.height);
   sets_.clear();
@@ -207,11 +207,12 @@ void Model::window(const Record& record, std::int32_t x, std::int32_t y, Observe
     samples(record, x, y, observer);
     return;
   }
-  sheet_.accumulate(x + rim_, y + rim_, weights_, record.colour, counters_, observer);
+  sheet_.accumulate(x + halo_, y + halo_, weights_, record.colour, counters_, observer);
   if (taps_ != nullptr) {
     tap(Tap::Footprint, record.tag, x, y, weights_);
     tap(Tap::Sheet, record.tag, x, y,
-        gather(x, y, [&](int i, int j) { return sheet_.at(i + rim_, j + rim_).data(); }, rim_));
+        gather(
+            x, y, [&](int i, int j) { return sheet_.at(i + halo_, j + halo_).data(); }, halo_));
   }
 }
 
@@ -246,7 +247,7 @@ SheetWord Model::sums(int x, int y) const {
 template <class Observer>
 void Model::end_sheet(Observer& observer) {
   ++counters_.sheets;
-  if (rim_ > 0) {
+  if (halo_ > 0) {
     classify(observer, [this](auto... takes) { densities_.end_sheet(sheet_, sheet_number_, takes...); });
     return;
   }
@@ -280,7 +281,7 @@ void Model::classify(Observer& observer, Step step) {
 
 template <class Observer>
 void Model::end_tile(Observer& observer) {
-  if (rim_ > 0) classify(observer, [this](auto... takes) { densities_.end_tile(takes...); });
+  if (halo_ > 0) classify(observer, [this](auto... takes) { densities_.end_tile(takes...); });
   ++counters_.tiles;
   sheet_number_ = 0;  // pixels belong to no sheet
   TilePixels out{

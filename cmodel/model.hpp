@@ -102,7 +102,7 @@ class Model final : public Device {
   Ranges* ranges_;
   BeginFrame frame_;
   BeginTile tile_;
-  int rim_ = 0;  ///< halo of its sheets, pixels
+  int halo_ = 0;  ///< halo of its sheets, pixels
   std::uint32_t sheet_number_ = 0;
   std::vector<std::uint32_t> weights_;  ///< of the current window, P*P
   std::vector<std::uint32_t> scratch_;  ///< a tap's payload, P*P*4

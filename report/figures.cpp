@@ -11,7 +11,7 @@ void Figures::damaged(const std::string& place, const std::string& expected) con
   std::string got = found ? json_text(*found, -1) : "nothing";
   if (got.size() > 40) got = got.substr(0, 37) + "...";
   throw_input({.where = result_.file.string(),
-               .what = "a damaged result of `" + result_.verb + "`: " + place,
+               .what = "a damaged result of `" + result_.subcommand + "`: " + place,
                .expected = expected,
                .got = got,
                .fix = "run this subcommand again with --json"});

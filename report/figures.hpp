@@ -38,7 +38,7 @@ void reading(const Result& result, const Make& make) {
     make();
   } catch (const Json::exception&) {
     throw_input({.where = result.file.string(),
-                 .what = "a damaged result of `" + result.verb + "`: a figure has the wrong type",
+                 .what = "a damaged result of `" + result.subcommand + "`: a figure has the wrong type",
                  .expected = {},
                  .got = {},
                  .fix = "run this subcommand again with --json"});

@@ -59,14 +59,14 @@ std::vector<NamedPicture> pictures_of(const Result& result) {
     if (!name.empty())
       pictures.push_back({.role = role, .file = found(result, name), .otherwise = otherwise, .tie = tie});
   };
-  if (result.verb == "compare") {
+  if (result.subcommand == "compare") {
     add(text_at(result.json, "/ref/file"), "", "reference", "ref");
     add(text_at(result.json, "/test/file"), "", "test", "test");
-  } else if (result.verb == "render") {
+  } else if (result.subcommand == "render") {
     add(best_of(result.json), role_of_engine(text_at(result.json, "/engine")), "picture");
-  } else if (result.verb == "stream replay") {
+  } else if (result.subcommand == "stream replay") {
     add(best_of(result.json), "integer", "integer");
-  } else if (result.verb == "errors") {
+  } else if (result.subcommand == "errors") {
     add(text_at(result.json, "/blame"), "blame", "blame");
   }
   return pictures;

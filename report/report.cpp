@@ -22,7 +22,7 @@ std::vector<Verdict> verdicts_of(const std::vector<Result>& results) {
 Focus focus_of(const std::vector<Result>& results, const Album& album) {
   for (const Result& result : results) {
     const Json::json_pointer x("/worst/x"), y("/worst/y");
-    if (result.verb == "compare" && result.json.contains(x) && result.json.contains(y))
+    if (result.subcommand == "compare" && result.json.contains(x) && result.json.contains(y))
       return {.x = result.json.at(x).get<int>(), .y = result.json.at(y).get<int>()};
   }
   if (album.pictures.empty()) return {};
@@ -41,7 +41,7 @@ Json page_data(const std::vector<Result>& results) {
             {"results", Json::array()}};
   for (std::size_t i = 0; i < results.size(); ++i) {
     data["made"].push_back(command_of(results[i]));
-    data["verdict"]["items"].push_back({{"verb", results[i].verb},
+    data["verdict"]["items"].push_back({{"verb", results[i].subcommand},
                                         {"file", results[i].file.string()},
                                         {"status", to_string(verdicts[i].status)},
                                         {"sentence", verdicts[i].sentence}});

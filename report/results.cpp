@@ -22,8 +22,8 @@ JsonKind a_result() {
           .most_bytes = kLargest};
 }
 
-/// Old results of `compare` have a schema instead of a verb; coverage files of `verify --coverage` have a format.
-std::string verb_in(const Json& json) {
+/// Old results of `compare` have a schema instead of a subcommand; coverage files of `verify --coverage` have a format.
+std::string subcommand_in(const Json& json) {
   const auto text = [&](const char* key) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string{};
@@ -39,23 +39,23 @@ Result read_result(const std::filesystem::path& file) {
   require_readable_file(file);
   Result result = from_json_file<Json>(file, a_result(), [&](Json json) {
     if (!json.is_object()) throw std::runtime_error(std::string("a JSON ") + json.type_name());
-    std::string verb = verb_in(json);
-    if (verb.empty()) throw std::runtime_error("an object without a \"verb\"");
-    return Result{.file = file, .verb = std::move(verb), .json = std::move(json)};
+    std::string subcommand = subcommand_in(json);
+    if (subcommand.empty()) throw std::runtime_error("an object without a \"verb\"");
+    return Result{.file = file, .subcommand = std::move(subcommand), .json = std::move(json)};
   });
-  const auto known = reported_verbs();
-  if (std::find(known.begin(), known.end(), result.verb) == known.end()) {
+  const auto known = reported_subcommands();
+  if (std::find(known.begin(), known.end(), result.subcommand) == known.end()) {
     throw_input({.where = file.string(),
-                 .what = "verb '" + result.verb + "' is not supported in reports",
+                 .what = "verb '" + result.subcommand + "' is not supported in reports",
                  .expected = {},
                  .got = {},
-                 .fix = suggestion(result.verb, known)});
+                 .fix = suggestion(result.subcommand, known)});
   }
   reading(result, [&] { verdict_of(result); });  // checks that its figures exist
   return result;
 }
 
-std::vector<std::string> reported_verbs() {
+std::vector<std::string> reported_subcommands() {
   std::vector<std::string> names;
   for (const auto& [name, unused] : verdicts()) names.push_back(name);
   return names;
@@ -75,7 +75,7 @@ const char* to_string(Status status) {
   return "";
 }
 
-Verdict verdict_of(const Result& result) { return verdicts().at(result.verb)(Figures(result)); }
+Verdict verdict_of(const Result& result) { return verdicts().at(result.subcommand)(Figures(result)); }
 
 Verdict verdict_of(const std::vector<Verdict>& all) {
   const auto severity = [](const Verdict& verdict) {

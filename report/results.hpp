@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 struct Result {
   std::filesystem::path file;  ///< as the user named it
-  std::string verb;            ///< "compare", "errors bound"
+  std::string subcommand;      ///< "compare", "errors bound"
   Json json;                   ///< the complete object
 };
 
@@ -22,7 +22,7 @@ struct Result {
 Result read_result(const std::filesystem::path& file);
 
 /// Subcommands that have reports, sorted.
-std::vector<std::string> reported_verbs();
+std::vector<std::string> reported_subcommands();
 
 enum class Status {
   Pass,

@@ -30,7 +30,7 @@ std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried
     text += fmt::format("; {}: {:.0f} %", steps[i]->set.name, 100.0 * steps[i]->share);
   text += "\n";
   if (!tried) return text;
-  text += fmt::format("{} would {} the error: RMS {:.4f} -> {:.4f} LSB{}", tried->remedy.changes,
+  text += fmt::format("{} would {} the error: RMS {:.4f} -> {:.4f} LSB{}", tried->suggestion.changes,
                       tried->error.rms < 0.999 * a.total.rms ? "reduce" : "not reduce",
                       a.total.rms * lsb_per_unit(bits), tried->error.rms * lsb_per_unit(bits), bits);
   if (tried->costs) {
@@ -64,15 +64,15 @@ Json amount_json(const Amount& amount) {
 
 }  // namespace
 
-std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::Config& config,
-                                      const Attribution& attribution, int threads) {
+std::optional<TriedRemedy> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+                                          const Attribution& attribution, int threads) {
   for (const StepError* step : ranked(attribution)) {
     if (step->share <= 0.0) break;
-    std::optional<Remedy> found = remedy(step->set.steps.back(), config);
+    std::optional<Suggestion> found = suggestion(step->set.steps.back(), config);
     if (!found) continue;
     TriedRemedy out{step->set.name, std::move(*found), {}, {}};
-    if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.remedy.config)};
-    const stages::Chain chain(scene, out.remedy.config);
+    if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.suggestion.config)};
+    const stages::Chain chain(scene, out.suggestion.config);
     out.error = amount_of(difference(chain(stages::Mixture::all_device(), threads), attribution.real));
     return out;
   }
@@ -152,7 +152,8 @@ Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
                               {"parts_lsb8", parts}});
   }
   if (tried) {
-    json["remedy"] = {{"step", tried->step}, {"changes", tried->remedy.changes}, {"error", amount_json(tried->error)}};
+    json["remedy"] = {
+        {"step", tried->step}, {"changes", tried->suggestion.changes}, {"error", amount_json(tried->error)}};
     if (tried->costs) {
       json["remedy"]["cost_before"] = to_json(tried->costs->first);
       json["remedy"]["cost_after"] = to_json(tried->costs->second);

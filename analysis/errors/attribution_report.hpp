@@ -17,14 +17,14 @@ namespace fastsplat::analysis {
 /// A suggestion for the step with the largest share, tried on the scene.
 struct TriedRemedy {
   std::string step;  ///< name of the set
-  Remedy remedy;
+  Suggestion suggestion;
   Amount error;                                ///< the remaining error
   std::optional<std::pair<Cost, Cost>> costs;  ///< before and after; only for index.kind rlut, as in rtl/
 };
 
 /// Tries the suggestion for the step with the largest share that has one.
-std::optional<TriedRemedy> try_remedy(const scene::Scene& scene, const cmodel::Config& config,
-                                      const Attribution& attribution, int threads);
+std::optional<TriedRemedy> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+                                          const Attribution& attribution, int threads);
 
 /// The answer first, then the table. `bits`: amounts are in LSB of this width.
 std::string to_text(const Attribution& attribution, const std::optional<TriedRemedy>& tried, int bits);

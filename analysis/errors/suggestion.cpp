@@ -100,8 +100,8 @@ std::string changes(const Config& from, const Config& to) {
   return text;
 }
 
-std::optional<Remedy> remedy(Step step, const Config& config) {
-  Remedy out{config, {}};
+std::optional<Suggestion> suggestion(Step step, const Config& config) {
+  Suggestion out{config, {}};
   apply(step, out.config);
   if (cmodel::first_violation(out.config) || out.config == config) return std::nullopt;
   out.changes = changes(config, out.config);

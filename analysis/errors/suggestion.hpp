@@ -10,14 +10,14 @@
 
 namespace fastsplat::analysis {
 
-struct Remedy {
+struct Suggestion {
   cmodel::Config config;
   std::string changes;  ///< "snap.phases 64 -> 256, position.frac_bits 6 -> 8"
 };
 
 /// Two more bits for the step's words (a quarter of its step size), or one more integer bit. nullopt if the limits of
 /// the configuration do not allow it.
-std::optional<Remedy> remedy(stages::Step step, const cmodel::Config& config);
+std::optional<Suggestion> suggestion(stages::Step step, const cmodel::Config& config);
 
 /// Keys that differ, in the order of the table: "snap.phases 64 -> 256".
 std::string changes(const cmodel::Config& from, const cmodel::Config& to);

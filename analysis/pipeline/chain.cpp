@@ -139,7 +139,7 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
       bands, steps_.sheets(), splats.splats.size(), threads,
       [&](std::size_t i) {
         return driver::widened(extent_of(splats.splats[i], splats.shape(i), more_reach(config_)),
-                               densities_ ? DensityBand::kRim : 0);
+                               densities_ ? DensityBand::kHalo : 0);
       },
       [&](std::size_t i) { return splats.splats[i].first; });
 

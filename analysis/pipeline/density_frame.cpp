@@ -11,7 +11,7 @@ namespace fastsplat::stages {
 DensityBand::DensityBand(const Frame& frame, golden::Rows rows)
     : frame_(frame),
       rows_(rows),
-      with_rim_{std::max(rows.first - kRim, 0), std::min(rows.end + kRim, frame.scene.description.height)},
+      with_halo_{std::max(rows.first - kHalo, 0), std::min(rows.end + kHalo, frame.scene.description.height)},
       width_(frame.scene.description.width),
       height_(frame.scene.description.height),
       all_real_(frame.mixture == Mixture{}),
@@ -21,8 +21,8 @@ DensityBand::DensityBand(const Frame& frame, golden::Rows rows)
       pixels_(frame.scene, frame.config, frame.mixture, frame.golden_units),
       product_(product_rule(frame.config, frame.mixture)),
       // The sheets that current splats reach, and the two in front of them.
-      ring_(static_cast<std::size_t>(frame.steps.reach()) + 2, golden::Sheet(with_rim_, width_)),
-      nothing_(with_rim_, width_),
+      ring_(static_cast<std::size_t>(frame.steps.reach()) + 2, golden::Sheet(with_halo_, width_)),
+      nothing_(with_halo_, width_),
       picture_(static_cast<std::size_t>(rows.end - rows.first) * static_cast<std::size_t>(width_), pixels_.initial()),
       material_(static_cast<std::size_t>(width_)),
       settled_(picture_.size(), 0),
@@ -40,7 +40,7 @@ void DensityBand::run(const BandBins& bins, int band) {
     }
     if (sheet > 0) classify({sheet - 1, neighbour(sheet - 2), at(sheet - 1), neighbour(sheet)});
     if (sheet > 1) {
-      for (int y = with_rim_.first; y < with_rim_.end; ++y) at(sheet - 2).clear_row(y);
+      for (int y = with_halo_.first; y < with_halo_.end; ++y) at(sheet - 2).clear_row(y);
     }
   }
 }
@@ -51,14 +51,14 @@ void DensityBand::store(golden::Sums* out) const {
 
 void DensityBand::add(const StagedSplat& splat, const StagedShape* shape) {
   const Mixture& mixture = frame_.mixture;
-  weights_.rasterise(splat, shape, mixture, frame_.golden_units, with_rim_, width_);
+  weights_.rasterise(splat, shape, mixture, frame_.golden_units, with_halo_, width_);
   frame_.steps.shares(splat, mixture, shares_, shape != nullptr ? shape->growth : Growth{});
   add_to_sheets(splat, weights_, shares_, product_, [this](int sheet) -> golden::Sheet& { return at(sheet); });
 }
 
 void DensityBand::end(golden::Sheet& sheet) const {
   if (!cut_) return;
-  for (int y = with_rim_.first; y < with_rim_.end; ++y) {
+  for (int y = with_halo_.first; y < with_halo_.end; ++y) {
     const golden::Run run = sheet.touched(y);
     for (int x = run.begin; x < run.end; ++x) sheet.row(y)[x][3] = sum_.cut(sheet.row(y)[x][3]);
   }

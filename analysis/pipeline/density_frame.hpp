@@ -17,7 +17,7 @@ namespace fastsplat::stages {
 
 class DensityBand {
  public:
-  static constexpr int kRim = 1;  ///< halo around a band whose densities are read, pixels
+  static constexpr int kHalo = 1;  ///< halo around a band whose densities are read, pixels
 
   /// What all bands share; DensityBand keeps the references.
   struct Frame {
@@ -45,7 +45,7 @@ class DensityBand {
   DensityPixel pixel_of(const golden::SheetWindow& window, int x, int y) const;
 
   Frame frame_;
-  golden::Rows rows_, with_rim_;
+  golden::Rows rows_, with_halo_;
   int width_, height_;
   bool all_real_, cut_;
   RealNarrowing sum_;

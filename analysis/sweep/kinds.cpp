@@ -7,23 +7,23 @@ namespace fastsplat::plan {
 
 std::vector<StepOfKind> steps_of(const std::string& kind) {
   if (kind == "compare") {
-    return {{.verb = "render",
+    return {{.subcommand = "render",
              .files = {},
              .outputs = {"--engine", "golden", "--out", "{golden.exr}"},
              .takes_device = false,
              .has_result = false,
              .shared = "golden.exr"},
-            {.verb = "render", .files = {}, .outputs = {"--engine", "cmodel", "--out", "{model.exr}"}},
-            {.verb = "compare", .files = {"{golden.exr}", "{model.exr}"}, .outputs = {}}};
+            {.subcommand = "render", .files = {}, .outputs = {"--engine", "cmodel", "--out", "{model.exr}"}},
+            {.subcommand = "compare", .files = {"{golden.exr}", "{model.exr}"}, .outputs = {}}};
   }
-  if (kind == "render") return {{.verb = "render", .files = {}, .outputs = {"--out", "{picture.exr}"}}};
+  if (kind == "render") return {{.subcommand = "render", .files = {}, .outputs = {"--out", "{picture.exr}"}}};
   if (kind == "verify") {
-    return {{.verb = "verify",
+    return {{.subcommand = "verify",
              .files = {},
              .outputs = {"--coverage", "{coverage.json}", "--failure", "{failure}"},
              .coverage = true}};
   }
-  return {{.verb = kind, .files = {}, .outputs = {}}};
+  return {{.subcommand = kind, .files = {}, .outputs = {}}};
 }
 
 bool is_given_by_run(const std::string& flag) {

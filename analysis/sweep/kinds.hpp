@@ -11,7 +11,7 @@ namespace fastsplat::plan {
 
 /// A run of a kind, before the settings are inserted.
 struct StepOfKind {
-  std::string verb;
+  std::string subcommand;
   Words files;               ///< words before the settings: "{model.exr}" as a positional
   Words outputs;             ///< words after them
   bool takes_device = true;  ///< configuration and keys become words, if the subcommand takes them

@@ -36,12 +36,12 @@ class Maker {
   Maker(const Spec& spec, const Vocabulary& vocabulary) : spec_(spec), vocabulary_(vocabulary) {
     for (const auto& kind : spec.kinds) {
       for (auto& step : steps_of(kind)) {
-        verbs_.push_back(step.verb);
+        subcommands_.push_back(step.subcommand);
         steps_.push_back(std::move(step));
       }
     }
-    for (const auto& verb : verbs_) {
-      if (!flags_.contains(verb)) flags_[verb] = vocabulary.flags_of(verb);
+    for (const auto& subcommand : subcommands_) {
+      if (!flags_.contains(subcommand)) flags_[subcommand] = vocabulary.flags_of(subcommand);
     }
     check_names();
   }
@@ -143,13 +143,13 @@ class Maker {
     const bool of_device = is_key(name) || name == "config" || name == "index";
     if (of_device && !step.takes_device) return false;
     const std::string flag = is_key(name) ? "--set" : "--" + name;
-    const auto& flags = flags_.at(step.verb);
+    const auto& flags = flags_.at(step.subcommand);
     return std::ranges::find(flags, flag) != flags.end();
   }
 
   void check_names() const {
     std::vector<std::string> known;
-    for (const auto& [verb, flags] : flags_) {
+    for (const auto& [subcommand, flags] : flags_) {
       for (const auto& flag : flags) {
         if (!is_given_by_run(flag.substr(2))) known.push_back(flag.substr(2));
       }
@@ -197,14 +197,14 @@ class Maker {
              .axes = point.axes,
              .kind = fmt::format("{}", fmt::join(spec_.kinds, "+")),
              .settings = point.settings,
-             .content = vocabulary_.content(point.settings, verbs_),
+             .content = vocabulary_.content(point.settings, subcommands_),
              .steps = {}};
     std::map<std::string, std::string> shared;  // "{golden.exr}": "{golden-HASH.exr}"
     for (const StepOfKind& step : steps_) {
-      Step made{.words = {}, .result = step.has_result ? step.verb : "", .shared = {}, .coverage = step.coverage};
-      for (std::size_t at = 0, space = 0; at <= step.verb.size(); at = space + 1) {
-        space = std::min(step.verb.find(' ', at), step.verb.size());
-        made.words.push_back(step.verb.substr(at, space - at));
+      Step made{.words = {}, .result = step.has_result ? step.subcommand : "", .shared = {}, .coverage = step.coverage};
+      for (std::size_t at = 0, space = 0; at <= step.subcommand.size(); at = space + 1) {
+        space = std::min(step.subcommand.find(' ', at), step.subcommand.size());
+        made.words.push_back(step.subcommand.substr(at, space - at));
       }
       made.words.insert(made.words.end(), step.files.begin(), step.files.end());
       for (const Setting& setting : point.settings) {
@@ -230,7 +230,7 @@ class Maker {
   const Spec& spec_;
   const Vocabulary& vocabulary_;
   std::vector<StepOfKind> steps_;
-  std::vector<std::string> verbs_;
+  std::vector<std::string> subcommands_;
   std::map<std::string, std::vector<std::string>> flags_;
 };
 

@@ -12,11 +12,11 @@ namespace fastsplat::plan {
 /// What this folder needs from the program: its subcommands, and the content behind the names in settings.
 struct Vocabulary {
   /// "--size", ...; throws UserError (Usage) for an unknown subcommand.
-  std::function<std::vector<std::string>(const std::string& verb)> flags_of;
+  std::function<std::vector<std::string>(const std::string& subcommand)> flags_of;
   /// Throws UserError for words, from the subcommand on, that the program would refuse before it reads a volume.
   std::function<void(const Words& words)> check;
   /// Throws UserError for unknown names and for broken limits between keys.
-  std::function<Content(const Settings& settings, const std::vector<std::string>& verbs)> content;
+  std::function<Content(const Settings& settings, const std::vector<std::string>& subcommands)> content;
 };
 
 struct Made {

@@ -29,7 +29,7 @@ Json read_json(const fs::path& path) {
 }
 
 /// Explains exit code 1: the broken limits of `compare`, the mismatches of `verify`.
-std::string why_failed(const Json& json, const std::string& verb) {
+std::string why_failed(const Json& json, const std::string& subcommand) {
   std::string text;
   if (json.is_object() && json.contains("limits") && json["limits"].is_array()) {
     for (const Json& limit : json["limits"]) {
@@ -40,14 +40,14 @@ std::string why_failed(const Json& json, const std::string& verb) {
   }
   if (json.is_object() && json.value("mismatches", Json()).is_number() && json["mismatches"] != 0)
     text = fmt::format("{} mismatches", json["mismatches"].dump());
-  return text.empty() ? fmt::format("`{}` ended with exit code 1", verb) : verb + ": " + text;
+  return text.empty() ? fmt::format("`{}` ended with exit code 1", subcommand) : subcommand + ": " + text;
 }
 
 }  // namespace
 
 Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
   Outcome out{.exit_code = ended.exit_code, .message = {}, .json = {}, .coverage = {}};
-  const std::string verb = step.result.empty() ? step.words.front() : step.result;
+  const std::string subcommand = step.result.empty() ? step.words.front() : step.result;
   const std::vector<std::string> folders{places.folder.string(), places.shared.string()};
   std::string missing;
   try {
@@ -64,13 +64,13 @@ Outcome outcome_of(const Step& step, const Ended& ended, const Places& places) {
   out.accident = ended.exit_code > static_cast<int>(ExitCode::Simulation) || (finished && !missing.empty());
   const std::string said = ended.message.empty() ? fmt::format("exit code {}", ended.exit_code) : ended.message;
   if (ended.signal != 0) {
-    out.message = fmt::format("`{}` was ended by signal {}", verb, ended.signal);
+    out.message = fmt::format("`{}` was ended by signal {}", subcommand, ended.signal);
   } else if (!finished) {
-    out.message = fmt::format("`{}`: {}", verb, said);
+    out.message = fmt::format("`{}`: {}", subcommand, said);
   } else if (!missing.empty()) {
-    out.message = fmt::format("`{}` ended with exit code {} without {}", verb, ended.exit_code, missing);
+    out.message = fmt::format("`{}` ended with exit code {} without {}", subcommand, ended.exit_code, missing);
   } else if (ended.exit_code != 0) {
-    out.message = why_failed(out.json, verb);
+    out.message = why_failed(out.json, subcommand);
   }
   out.status = out.message.empty() ? Status::Pass : finished && missing.empty() ? Status::Fail : Status::Error;
   out.message = forget_surroundings(out.message, folders);

@@ -92,18 +92,18 @@ std::string quoted_list(const std::vector<std::string>& words) {
 }
 
 /// Generates the function that sets a subcommand's completions: flags, nested subcommands, positional arguments.
-std::string verbs_function(const std::vector<Description>& all) {
+std::string subcommands_function(const std::vector<Description>& all) {
   std::string text = "_fastsplat_of() {\n  inner='' names='' name_files='' name_folders='' flags=''\n  case $1 in\n";
-  for (const Description& verb : all) {
+  for (const Description& subcommand : all) {
     std::vector<std::string> flags, inner;
-    for (const Flag& flag : verb.flags) {
+    for (const Flag& flag : subcommand.flags) {
       if (!flag.positional()) flags.insert(flags.end(), flag.names.begin(), flag.names.end());
     }
     for (const char* help : {"-h", "--help"}) flags.emplace_back(help);
-    for (const Description* one : inner_of(verb, all)) inner.push_back(last_word(one->name));
-    const Offer names = offer_of_words(verb);
-    text +=
-        fmt::format("    {})\n      flags={}\n", verb.name.empty() ? "''" : shell_word(verb.name), quoted_list(flags));
+    for (const Description* one : inner_of(subcommand, all)) inner.push_back(last_word(one->name));
+    const Offer names = offer_of_words(subcommand);
+    text += fmt::format("    {})\n      flags={}\n", subcommand.name.empty() ? "''" : shell_word(subcommand.name),
+                        quoted_list(flags));
     if (!inner.empty()) text += fmt::format("      inner={}\n", quoted_list(inner));
     if (!names.words.empty()) text += fmt::format("      names={}\n", quoted_list(names.words));
     if (names.files) text += "      name_files=1\n";
@@ -112,8 +112,9 @@ std::string verbs_function(const std::vector<Description>& all) {
   }
   text += "  esac\n}\n\n";
   std::string inner;
-  for (const Description& verb : all) {
-    if (verb.name.find(' ') != verb.name.npos) inner += (inner.empty() ? "" : " | ") + shell_word(verb.name);
+  for (const Description& subcommand : all) {
+    if (subcommand.name.find(' ') != subcommand.name.npos)
+      inner += (inner.empty() ? "" : " | ") + shell_word(subcommand.name);
   }
   return text + "_fastsplat_verb() { case $1 in " + inner + ") return 0 ;; esac; return 1; }\n";
 }
@@ -122,20 +123,20 @@ std::string verbs_function(const std::vector<Description>& all) {
 /// flags mean the same in all subcommands that have them; these appear once.
 std::string values_function(const std::vector<Description>& all) {
   struct Use {
-    std::string verb;
+    std::string subcommand;
     Offer offer;
   };
   std::vector<std::string> order;
   std::map<std::string, std::vector<Use>> uses;
   std::map<std::string, int> having;
-  for (const Description& verb : all) {
-    for (const Flag& flag : verb.flags) {
+  for (const Description& subcommand : all) {
+    for (const Flag& flag : subcommand.flags) {
       if (flag.positional()) continue;
       for (const auto& name : flag.names) {
         ++having[name];
         if (!flag.takes_value()) continue;
         if (!uses.contains(name)) order.push_back(name);
-        uses[name].push_back({verb.name, offer_of(flag)});
+        uses[name].push_back({subcommand.name, offer_of(flag)});
       }
     }
   }
@@ -153,7 +154,7 @@ std::string values_function(const std::vector<Description>& all) {
     if (same) {
       add(in.front().offer, "*' " + name + "'");
     } else {
-      for (const Use& use : in) add(use.offer, shell_word(use.verb + " " + name));
+      for (const Use& use : in) add(use.offer, shell_word(use.subcommand + " " + name));
     }
   }
   std::string text = "\n_fastsplat_value() {\n  case \"$1 $2\" in\n";
@@ -170,7 +171,7 @@ std::string values_function(const std::vector<Description>& all) {
 }  // namespace
 
 std::string bash_script(const std::vector<Description>& all) {
-  return kHead + verbs_function(all) + values_function(all) + kBody;
+  return kHead + subcommands_function(all) + values_function(all) + kBody;
 }
 
 }  // namespace fastsplat::cli

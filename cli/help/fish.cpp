@@ -53,15 +53,17 @@ std::string line(const std::string& condition, const std::string& rest) {
   return "complete -c fastsplat -n " + in_quotes(condition) + rest + "\n";
 }
 
-std::string at(const Description& verb) { return verb.name.empty() ? "__fastsplat_at" : "__fastsplat_at " + verb.name; }
+std::string at(const Description& subcommand) {
+  return subcommand.name.empty() ? "__fastsplat_at" : "__fastsplat_at " + subcommand.name;
+}
 
-std::string flag_line(const Description& verb, const Flag& flag) {
+std::string flag_line(const Description& subcommand, const Flag& flag) {
   std::string text;
   for (const auto& name : flag.names) {
     text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
   if (flag.takes_value()) text += value(offer_of(flag));
-  return line(at(verb), text + " -d " + in_quotes(flag.help));
+  return line(at(subcommand), text + " -d " + in_quotes(flag.help));
 }
 
 }  // namespace
@@ -69,23 +71,23 @@ std::string flag_line(const Description& verb, const Flag& flag) {
 std::string fish_script(const std::vector<Description>& all) {
   std::string text = kFishHead;
   text += "set -g __fastsplat_inner";
-  for (const Description& verb : all) {
-    if (verb.name.find(' ') != verb.name.npos) text += " " + in_quotes(verb.name);
+  for (const Description& subcommand : all) {
+    if (subcommand.name.find(' ') != subcommand.name.npos) text += " " + in_quotes(subcommand.name);
   }
   text += "\n\n# No files but where they make sense.\ncomplete -c fastsplat -f\n";
-  for (const Description& verb : all) {
+  for (const Description& subcommand : all) {
     text += "\n";
-    for (const Description* inner : inner_of(verb, all)) {
-      text += line("__fastsplat_just" + (verb.name.empty() ? "" : " " + verb.name),
+    for (const Description* inner : inner_of(subcommand, all)) {
+      text += line("__fastsplat_just" + (subcommand.name.empty() ? "" : " " + subcommand.name),
                    " -a " + last_word(inner->name) + " -d " + in_quotes(inner->summary));
     }
-    for (const Flag& flag : verb.flags) {
-      if (!flag.positional()) text += flag_line(verb, flag);
+    for (const Flag& flag : subcommand.flags) {
+      if (!flag.positional()) text += flag_line(subcommand, flag);
     }
-    text += line(at(verb), " -s h -l help -d 'help'");
-    const Offer words = offer_of_words(verb);
-    if (words.files) text += line(at(verb), " -F");
-    if (!words.words.empty()) text += line(at(verb), " -a " + list(words.words));
+    text += line(at(subcommand), " -s h -l help -d 'help'");
+    const Offer words = offer_of_words(subcommand);
+    if (words.files) text += line(at(subcommand), " -F");
+    if (!words.words.empty()) text += line(at(subcommand), " -a " + list(words.words));
   }
   return text;
 }

@@ -36,26 +36,30 @@ std::string argument(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR"; }
 
-std::string called(const Description& verb) { return verb.name.empty() ? "fastsplat" : "fastsplat " + verb.name; }
+std::string called(const Description& subcommand) {
+  return subcommand.name.empty() ? "fastsplat" : "fastsplat " + subcommand.name;
+}
 
-bool belongs_to(const Description& verb, const Description& head) { return verb.name.starts_with(head.name + " "); }
+bool belongs_to(const Description& subcommand, const Description& head) {
+  return subcommand.name.starts_with(head.name + " ");
+}
 
-std::string synopsis(const Description& verb, const std::vector<Description>& all) {
-  std::string line = bold(called(verb));
-  for (const Flag& flag : verb.flags) {
+std::string synopsis(const Description& subcommand, const std::vector<Description>& all) {
+  std::string line = bold(called(subcommand));
+  for (const Flag& flag : subcommand.flags) {
     if (flag.required && !flag.positional()) line += " " + bold(flag.names.back()) + " " + italic(flag.unit);
   }
-  const bool has_flags =
-      std::any_of(verb.flags.begin(), verb.flags.end(), [](const Flag& flag) { return !flag.positional(); });
+  const bool has_flags = std::any_of(subcommand.flags.begin(), subcommand.flags.end(),
+                                     [](const Flag& flag) { return !flag.positional(); });
   if (has_flags) line += " [" + italic("flags") + "]";
-  for (const Flag& flag : verb.flags) {
+  for (const Flag& flag : subcommand.flags) {
     if (!flag.positional()) continue;
     const std::string word = italic(flag.names.front()) + (flag.repeatable ? " ..." : "");
     line += flag.required ? " " + word : " [" + word + "]";
   }
-  if (verb.name.empty()) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
-  const bool heads = std::any_of(all.begin(), all.end(), [&](const auto& one) { return belongs_to(one, verb); });
-  if (verb.group && heads) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
+  if (subcommand.name.empty()) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
+  const bool heads = std::any_of(all.begin(), all.end(), [&](const auto& one) { return belongs_to(one, subcommand); });
+  if (subcommand.group && heads) line += " " + italic("subcommand") + " [" + italic("flags") + "]";
   return line + "\n";
 }
 
@@ -80,9 +84,9 @@ std::string entry(const Flag& flag) {
 }
 
 /// Positional arguments first, then the flags under their headings, in the order declared.
-std::string options(const Description& verb) {
+std::string options(const Description& subcommand) {
   std::vector<std::string> headings;
-  for (const Flag& flag : verb.flags) {
+  for (const Flag& flag : subcommand.flags) {
     const std::string& heading = flag.positional() ? "" : flag.group;
     if (std::find(headings.begin(), headings.end(), heading) == headings.end()) headings.push_back(heading);
   }
@@ -91,25 +95,25 @@ std::string options(const Description& verb) {
   std::string text;
   for (const auto& heading : headings) {
     if (!heading.empty()) text += ".SS " + argument(heading) + "\n";
-    for (const Flag& flag : verb.flags) {
+    for (const Flag& flag : subcommand.flags) {
       if ((flag.positional() ? "" : flag.group) == heading) text += entry(flag);
     }
   }
   return text;
 }
 
-std::string examples(const Description& verb) {
+std::string examples(const Description& subcommand) {
   std::string text;
-  for (const Example& example : verb.examples)
+  for (const Example& example : subcommand.examples)
     text += ".TP\n" + roff(example.does) + "\n.EX\n" + roff(example.command) + "\n.EE\n";
   return text;
 }
 
-std::string verbs_of(const Description& head, const std::vector<Description>& all) {
+std::string subcommands_of(const Description& head, const std::vector<Description>& all) {
   std::string text;
-  for (const Description& verb : all) {
-    if (verb.name.empty() || !(head.name.empty() || belongs_to(verb, head))) continue;
-    text += ".TP\n" + bold(verb.name) + "\n" + roff(verb.summary) + "\n";
+  for (const Description& subcommand : all) {
+    if (subcommand.name.empty() || !(head.name.empty() || belongs_to(subcommand, head))) continue;
+    text += ".TP\n" + bold(subcommand.name) + "\n" + roff(subcommand.summary) + "\n";
   }
   return text;
 }
@@ -121,12 +125,14 @@ std::string exit_status() {
   return text;
 }
 
-std::string see_also(const Description& verb, const std::vector<Description>& all) {
+std::string see_also(const Description& subcommand, const std::vector<Description>& all) {
   std::vector<std::string> pages;
   for (const Description& other : all) {
-    const bool near = verb.name.empty() || other.name.empty() || belongs_to(other, verb) || belongs_to(verb, other) ||
-                      other.name.substr(0, other.name.find(' ')) == verb.name.substr(0, verb.name.find(' '));
-    if (near && other.name != verb.name) pages.push_back(man_page_name(other));
+    const bool near =
+        subcommand.name.empty() || other.name.empty() || belongs_to(other, subcommand) ||
+        belongs_to(subcommand, other) ||
+        other.name.substr(0, other.name.find(' ')) == subcommand.name.substr(0, subcommand.name.find(' '));
+    if (near && other.name != subcommand.name) pages.push_back(man_page_name(other));
   }
   std::string text;
   for (const auto& page : pages) text += ".BR " + roff(page) + (page == pages.back() ? " (1)\n" : " (1),\n");
@@ -135,28 +141,28 @@ std::string see_also(const Description& verb, const std::vector<Description>& al
 
 }  // namespace
 
-std::string man_page_name(const Description& verb) {
-  std::string name = called(verb);
+std::string man_page_name(const Description& subcommand) {
+  std::string name = called(subcommand);
   std::replace(name.begin(), name.end(), ' ', '-');
   return name;
 }
 
-std::string man_page(const Description& verb, const std::vector<Description>& all) {
-  std::string title = man_page_name(verb);
+std::string man_page(const Description& subcommand, const std::vector<Description>& all) {
+  std::string title = man_page_name(subcommand);
   std::transform(title.begin(), title.end(), title.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
   std::string text = ".\\\" Made by `fastsplat help --man`; do not edit.\n";
   text += fmt::format(".TH {} 1 \"\" {} \"FastSplat\"\n", argument(title), argument("fastsplat " + program_version()));
-  text += ".SH NAME\n" + roff(man_page_name(verb)) + " \\- " + roff(verb.summary) + "\n";
-  text += ".SH SYNOPSIS\n" + synopsis(verb, all);
+  text += ".SH NAME\n" + roff(man_page_name(subcommand)) + " \\- " + roff(subcommand.summary) + "\n";
+  text += ".SH SYNOPSIS\n" + synopsis(subcommand, all);
   const auto section = [&](const char* name, const std::string& body) {
     if (!body.empty()) text += fmt::format(".SH {}\n{}", argument(name), body);
   };
-  section("EXAMPLES", examples(verb));
-  section("SUBCOMMANDS", verb.name.empty() || verb.group ? verbs_of(verb, all) : "");
-  section("OPTIONS", options(verb));
+  section("EXAMPLES", examples(subcommand));
+  section("SUBCOMMANDS", subcommand.name.empty() || subcommand.group ? subcommands_of(subcommand, all) : "");
+  section("OPTIONS", options(subcommand));
   section("EXIT STATUS", exit_status());
-  section("SEE ALSO", see_also(verb, all));
+  section("SEE ALSO", see_also(subcommand, all));
   return text;
 }
 

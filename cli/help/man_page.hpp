@@ -10,9 +10,9 @@
 namespace fastsplat::cli {
 
 /// "fastsplat-stream-record" for "stream record", "fastsplat" for the program.
-std::string man_page_name(const Description& verb);
+std::string man_page_name(const Description& subcommand);
 
-/// The page of `verb`, an entry of `all`; the program's own if its name is empty.
-std::string man_page(const Description& verb, const std::vector<Description>& all);
+/// The page of `subcommand`, an entry of `all`; the program's own if its name is empty.
+std::string man_page(const Description& subcommand, const std::vector<Description>& all);
 
 }  // namespace fastsplat::cli

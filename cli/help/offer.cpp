@@ -20,9 +20,9 @@ Offer offer_of(const Flag& flag) {
           .folders = flag.takes_folder()};
 }
 
-Offer offer_of_words(const Description& verb) {
+Offer offer_of_words(const Description& subcommand) {
   Offer all;
-  for (const Flag& flag : verb.flags) {
+  for (const Flag& flag : subcommand.flags) {
     if (!flag.positional()) continue;
     const Offer one = offer_of(flag);
     for (const auto& word : one.words) {
@@ -38,15 +38,17 @@ std::string last_word(const std::string& name) { return name.substr(name.rfind('
 
 std::vector<const Description*> inner_of(const Description& head, const std::vector<Description>& all) {
   std::vector<const Description*> inner;
-  for (const Description& verb : all) {
-    const auto space = verb.name.rfind(' ');
-    const std::string parent = space == verb.name.npos ? "" : verb.name.substr(0, space);
-    if (!verb.name.empty() && parent == head.name) inner.push_back(&verb);
+  for (const Description& subcommand : all) {
+    const auto space = subcommand.name.rfind(' ');
+    const std::string parent = space == subcommand.name.npos ? "" : subcommand.name.substr(0, space);
+    if (!subcommand.name.empty() && parent == head.name) inner.push_back(&subcommand);
   }
   return inner;
 }
 
-bool has_inner(const Description& verb, const std::vector<Description>& all) { return !inner_of(verb, all).empty(); }
+bool has_inner(const Description& subcommand, const std::vector<Description>& all) {
+  return !inner_of(subcommand, all).empty();
+}
 
 const std::vector<std::string>& completion_shells() {
   static const std::vector<std::string> shells{"bash", "zsh", "fish"};

@@ -21,10 +21,10 @@ struct Offer {
 
 Offer offer_of(const Flag& flag);
 /// Of all positional arguments of a subcommand together.
-Offer offer_of_words(const Description& verb);
+Offer offer_of_words(const Description& subcommand);
 
 /// Whether subcommands "NAME ..." exist.
-bool has_inner(const Description& verb, const std::vector<Description>& all);
+bool has_inner(const Description& subcommand, const std::vector<Description>& all);
 /// "record" for "stream record".
 std::string last_word(const std::string& name);
 /// The subcommands "HEAD x" of `head`; for the program, those of one word.

@@ -67,8 +67,9 @@ bool alike(const Flag& a, const Flag& b) {
   return a.names == b.names && a.unit == b.unit && a.help == b.help && a.group == b.group;
 }
 
-bool declares(const Description& verb, const Flag& flag) {
-  return std::any_of(verb.flags.begin(), verb.flags.end(), [&](const Flag& own) { return alike(own, flag); });
+bool declares(const Description& subcommand, const Flag& flag) {
+  return std::any_of(subcommand.flags.begin(), subcommand.flags.end(),
+                     [&](const Flag& own) { return alike(own, flag); });
 }
 
 std::string title_of(const std::string& group) { return group + " flags"; }
@@ -81,8 +82,8 @@ struct Group {
 /// The flags that several subcommands share, under their headings, in the order declared.
 std::vector<Group> shared_groups(const std::vector<Description>& all) {
   std::vector<Group> groups;
-  for (const Description& verb : all) {
-    for (const Flag& flag : verb.flags) {
+  for (const Description& subcommand : all) {
+    for (const Flag& flag : subcommand.flags) {
       const auto users =
           std::count_if(all.begin(), all.end(), [&](const auto& other) { return declares(other, flag); });
       if (flag.positional() || users < kShared) continue;
@@ -96,8 +97,9 @@ std::vector<Group> shared_groups(const std::vector<Description>& all) {
   return groups;
 }
 
-bool has_all(const Description& verb, const Group& group) {
-  return std::all_of(group.flags.begin(), group.flags.end(), [&](const Flag& flag) { return declares(verb, flag); });
+bool has_all(const Description& subcommand, const Group& group) {
+  return std::all_of(group.flags.begin(), group.flags.end(),
+                     [&](const Flag& flag) { return declares(subcommand, flag); });
 }
 
 const scene::Setting* setting_of(const Flag& flag) {
@@ -139,18 +141,18 @@ std::string table(const std::vector<Flag>& flags) {
   return text;
 }
 
-std::string section(const Description& verb, const std::vector<Group>& groups) {
-  std::string text = fmt::format("\n## {}\n\n{}\n\n```sh\n", verb.name, sentence(verb.summary));
-  for (const Example& example : verb.examples) text += fmt::format("# {}\n{}\n", example.does, example.command);
+std::string section(const Description& subcommand, const std::vector<Group>& groups) {
+  std::string text = fmt::format("\n## {}\n\n{}\n\n```sh\n", subcommand.name, sentence(subcommand.summary));
+  for (const Example& example : subcommand.examples) text += fmt::format("# {}\n{}\n", example.does, example.command);
   text += "```\n";
   std::vector<Flag> own;
   std::vector<std::string> shared;
   for (const Group& group : groups) {
-    if (has_all(verb, group)) shared.push_back(link(title_of(group.name)));
+    if (has_all(subcommand, group)) shared.push_back(link(title_of(group.name)));
   }
-  for (const Flag& flag : verb.flags) {
+  for (const Flag& flag : subcommand.flags) {
     const bool elsewhere = std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
-      return has_all(verb, group) &&
+      return has_all(subcommand, group) &&
              std::any_of(group.flags.begin(), group.flags.end(), [&](const auto& one) { return alike(one, flag); });
     });
     if (!elsewhere) own.push_back(flag);
@@ -219,15 +221,15 @@ std::string reference_page(const std::vector<Description>& all) {
       "Every subcommand, flag, scene key, configuration and exit code. The program writes this page.\n"
       "`fastsplat help SUBCOMMAND` prints the same for one subcommand, `fastsplat config show base` every\n"
       "configuration key. Shared flags stand once, behind the subcommands.\n\n";
-  for (const Description& verb : all) {
-    if (verb.name.empty() || verb.group) continue;
-    text += fmt::format("- {}: {}\n", link(verb.name), verb.summary);
+  for (const Description& subcommand : all) {
+    if (subcommand.name.empty() || subcommand.group) continue;
+    text += fmt::format("- {}: {}\n", link(subcommand.name), subcommand.summary);
   }
   text +=
       "- [Keys of scene.toml](#keys-of-scenetoml), [what goes with what](#what-goes-with-what),\n"
       "  [configurations](#configurations), [exit codes](#exit-codes)\n";
-  for (const Description& verb : all) {
-    if (!verb.name.empty() && !verb.group) text += section(verb, groups);
+  for (const Description& subcommand : all) {
+    if (!subcommand.name.empty() && !subcommand.group) text += section(subcommand, groups);
   }
   for (const Group& group : groups) text += fmt::format("\n## {}\n", title_of(group.name)) + table(group.flags);
   return text + keys() + capabilities() + configurations() + exit_codes();

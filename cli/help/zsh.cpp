@@ -23,8 +23,8 @@ std::string plain(const std::string& text) {
 /// A word of _describe's list, separated from its explanation by a colon.
 std::string described(const std::string& word, const std::string& what) { return shell_word(plain(word) + ":" + what); }
 
-std::string function_of(const Description& verb) {
-  std::string name = "_fastsplat" + std::string(verb.name.empty() ? "" : "_") + verb.name;
+std::string function_of(const Description& subcommand) {
+  std::string name = "_fastsplat" + std::string(subcommand.name.empty() ? "" : "_") + subcommand.name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
@@ -80,25 +80,26 @@ std::string specification(const Flag& flag, Lists& lists) {
   return text;
 }
 
-std::string inner_choice(const Description& verb, const std::vector<Description>& all, const std::string& otherwise) {
+std::string inner_choice(const Description& subcommand, const std::vector<Description>& all,
+                         const std::string& otherwise) {
   std::string text = "  if (( CURRENT == 2 )) && [[ $words[2] != -* ]]; then\n    local -a verbs=(\n";
-  for (const Description* one : inner_of(verb, all))
+  for (const Description* one : inner_of(subcommand, all))
     text += "      " + described(last_word(one->name), one->summary) + "\n";
   text += "    )\n    _describe -t verbs verb verbs\n";
   if (!otherwise.empty()) text += "    " + otherwise + "\n";
   text += "    return\n  fi\n  case $words[2] in\n";
-  for (const Description* one : inner_of(verb, all)) {
+  for (const Description* one : inner_of(subcommand, all)) {
     text += fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      {}\n      return\n      ;;\n",
                         shell_word(last_word(one->name)), function_of(*one));
   }
   return text + "  esac\n";
 }
 
-std::string function(const Description& verb, const std::vector<Description>& all, Lists& lists) {
-  std::string text = function_of(verb) + "() {\n";
-  if (has_inner(verb, all)) text += inner_choice(verb, all, "");
+std::string function(const Description& subcommand, const std::vector<Description>& all, Lists& lists) {
+  std::string text = function_of(subcommand) + "() {\n";
+  if (has_inner(subcommand, all)) text += inner_choice(subcommand, all, "");
   text += "  _arguments -s -S";
-  for (const Flag& flag : verb.flags) text += " \\\n    " + specification(flag, lists);
+  for (const Flag& flag : subcommand.flags) text += " \\\n    " + specification(flag, lists);
   return text + " \\\n    " + shell_word("(-h --help)-h[help]") + " \\\n    " + shell_word("(-h --help)--help[help]") +
          "\n}\n\n";
 }
@@ -108,7 +109,7 @@ std::string function(const Description& verb, const std::vector<Description>& al
 std::string zsh_script(const std::vector<Description>& all) {
   Lists lists;
   std::string functions;
-  for (const Description& verb : all) functions += function(verb, all, lists);
+  for (const Description& subcommand : all) functions += function(subcommand, all, lists);
   return "#compdef fastsplat\n"
          "# zsh completion of fastsplat, made by `fastsplat completion zsh`; do not edit.\n"
          "# In a folder of $fpath it is called _fastsplat. For one session: source <(fastsplat completion zsh)\n\n" +

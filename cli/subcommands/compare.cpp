@@ -267,7 +267,7 @@ void declare(Options& options, CompareArguments& to) {
 
 }  // namespace
 
-const Verb verbs::compare{"compare", "compare two images: metrics in LSB and dB, maps, limits",
-                          verb<CompareArguments, declare, run>};
+const Subcommand subcommands::compare{"compare", "compare two images: metrics in LSB and dB, maps, limits",
+                                      subcommand<CompareArguments, declare, run>};
 
 }  // namespace fastsplat::cli

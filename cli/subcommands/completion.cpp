@@ -29,8 +29,8 @@ void declare(Options& options, CompletionArguments& to) {
 
 }  // namespace
 
-const Verb verbs::completion{"completion",
-                             "print a script for bash, zsh or fish that completes subcommands, flags and names",
-                             verb<CompletionArguments, declare, run>};
+const Subcommand subcommands::completion{
+    "completion", "print a script for bash, zsh or fish that completes subcommands, flags and names",
+    subcommand<CompletionArguments, declare, run>};
 
 }  // namespace fastsplat::cli

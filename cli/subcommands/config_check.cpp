@@ -55,7 +55,8 @@ ExitCode run(const ConfigCheckArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_check{"config check", "check that every key is present, known and within its limits",
-                               verb<ConfigCheckArguments, declare, run>};
+const Subcommand subcommands::config_check{"config check",
+                                           "check that every key is present, known and within its limits",
+                                           subcommand<ConfigCheckArguments, declare, run>};
 
 }  // namespace fastsplat::cli

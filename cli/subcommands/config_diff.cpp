@@ -86,8 +86,8 @@ ExitCode run(const ConfigDiffArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_diff{"config diff",
-                              "list the keys that differ between two configurations; exit 1 if there are any",
-                              verb<ConfigDiffArguments, declare, run>};
+const Subcommand subcommands::config_diff{
+    "config diff", "list the keys that differ between two configurations; exit 1 if there are any",
+    subcommand<ConfigDiffArguments, declare, run>};
 
 }  // namespace fastsplat::cli

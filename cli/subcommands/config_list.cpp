@@ -51,7 +51,7 @@ ExitCode run(const ConfigListArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_list{"config list", "list the built-in configurations",
-                              verb<ConfigListArguments, declare, run>};
+const Subcommand subcommands::config_list{"config list", "list the built-in configurations",
+                                          subcommand<ConfigListArguments, declare, run>};
 
 }  // namespace fastsplat::cli

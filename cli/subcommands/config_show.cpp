@@ -40,7 +40,7 @@ ExitCode run(const ConfigShowArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::config_show{"config show", "print every key of a configuration as TOML for --config",
-                              verb<ConfigShowArguments, declare, run>};
+const Subcommand subcommands::config_show{"config show", "print every key of a configuration as TOML for --config",
+                                          subcommand<ConfigShowArguments, declare, run>};
 
 }  // namespace fastsplat::cli

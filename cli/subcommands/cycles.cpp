@@ -378,8 +378,8 @@ void declare(Options& options, CyclesArguments& to) {
 
 }  // namespace
 
-const Verb verbs::cycles{"cycles",
-                         "count the clock cycles of a scene or stream on the device, and show how they are spent",
-                         verb<CyclesArguments, declare, run>};
+const Subcommand subcommands::cycles{
+    "cycles", "count the clock cycles of a scene or stream on the device, and show how they are spent",
+    subcommand<CyclesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -199,8 +199,8 @@ void declare(Options& options, DoctorArguments& to) {
 
 }  // namespace
 
-const Verb verbs::doctor{"doctor",
-                         "list versions, processors, programs and scans, what is missing and how to install it",
-                         verb<DoctorArguments, declare, run>};
+const Subcommand subcommands::doctor{
+    "doctor", "list versions, processors, programs and scans, what is missing and how to install it",
+    subcommand<DoctorArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -90,7 +90,7 @@ ExitCode run(const ErrorsArguments& arguments) {
                                                      .threads = arguments.common.threads,
                                                      .progress = bar.callback()});
   }
-  result.tried = analysis::try_remedy(scene, config, result.attribution, arguments.common.threads);
+  result.tried = analysis::try_suggestion(scene, config, result.attribution, arguments.common.threads);
   if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
   if (!arguments.maps.empty()) write_maps(arguments, scene, result, sets);
   output.line(errors_heading(result.scene, config) +
@@ -123,6 +123,7 @@ void declare(Options& options, ErrorsArguments& to) {
 
 }  // namespace
 
-const Verb verbs::errors{"errors", "attribute the device's error to its steps", verb<ErrorsArguments, declare, run>};
+const Subcommand subcommands::errors{"errors", "attribute the device's error to its steps",
+                                     subcommand<ErrorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

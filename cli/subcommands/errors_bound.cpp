@@ -98,7 +98,8 @@ void declare(Options& options, ErrorsBoundArguments& to) {
 
 }  // namespace
 
-const Verb verbs::errors_bound{"errors bound", "prove a worst case of every pixel's error (exit 1 if it does not hold)",
-                               verb<ErrorsBoundArguments, declare, run>};
+const Subcommand subcommands::errors_bound{"errors bound",
+                                           "prove a worst case of every pixel's error (exit 1 if it does not hold)",
+                                           subcommand<ErrorsBoundArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -104,7 +104,7 @@ void declare(Options& options, ErrorsProposeArguments& to) {
 
 }  // namespace
 
-const Verb verbs::errors_propose{"errors propose", "find the cheapest configuration that meets a target",
-                                 verb<ErrorsProposeArguments, declare, run>};
+const Subcommand subcommands::errors_propose{"errors propose", "find the cheapest configuration that meets a target",
+                                             subcommand<ErrorsProposeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

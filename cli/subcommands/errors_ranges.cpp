@@ -77,7 +77,7 @@ void declare(Options& options, ErrorsRangesArguments& to) {
 
 }  // namespace
 
-const Verb verbs::errors_ranges{"errors ranges", "measure each signal's range and the format it needs",
-                                verb<ErrorsRangesArguments, declare, run>};
+const Subcommand subcommands::errors_ranges{"errors ranges", "measure each signal's range and the format it needs",
+                                            subcommand<ErrorsRangesArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -114,7 +114,7 @@ void declare(Options& options, FamilyArguments& to) {
 
 }  // namespace
 
-const Verb verbs::family{"family", "compare all kinds of index: error of weights, bits, operations, cycles",
-                         verb<FamilyArguments, declare, run>};
+const Subcommand subcommands::family{"family", "compare all kinds of index: error of weights, bits, operations, cycles",
+                                     subcommand<FamilyArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -13,20 +13,21 @@ namespace fastsplat::cli {
 namespace {
 
 struct HelpArguments {
-  std::vector<std::string> verb;
+  std::vector<std::string> subcommand;
   bool man = false, markdown = false;
   std::string pages;  ///< a folder; empty for none
 };
 
 void write_pages(const std::string& folder) {
   const auto all = describe();
-  for (const Description& verb : all)
-    write_text_file((std::filesystem::path(folder) / (man_page_name(verb) + ".1")).string(), man_page(verb, all));
+  for (const Description& subcommand : all)
+    write_text_file((std::filesystem::path(folder) / (man_page_name(subcommand) + ".1")).string(),
+                    man_page(subcommand, all));
 }
 
 ExitCode run(const HelpArguments& arguments) {
   if (!arguments.pages.empty()) {
-    if (arguments.man || arguments.markdown || !arguments.verb.empty()) {
+    if (arguments.man || arguments.markdown || !arguments.subcommand.empty()) {
       throw_usage({.where = "--man-pages",
                    .what = "writes all pages and cannot be combined with --man or a subcommand",
                    .expected = {},
@@ -37,7 +38,7 @@ ExitCode run(const HelpArguments& arguments) {
     return ExitCode::Pass;
   }
   if (arguments.markdown) {
-    if (arguments.man || !arguments.verb.empty()) {
+    if (arguments.man || !arguments.subcommand.empty()) {
       throw_usage({.where = "--markdown",
                    .what = "prints all subcommands on one page",
                    .expected = {},
@@ -49,26 +50,26 @@ ExitCode run(const HelpArguments& arguments) {
   }
   if (arguments.man) {
     const auto all = describe();
-    write_stdout(man_page(described(arguments.verb, all), all));
+    write_stdout(man_page(described(arguments.subcommand, all), all));
   } else {
-    write_stdout(help_on(arguments.verb));
+    write_stdout(help_on(arguments.subcommand));
   }
   return ExitCode::Pass;
 }
 
 /// All words of subcommand names.
-std::vector<std::string> verb_words() {
+std::vector<std::string> subcommand_words() {
   std::vector<std::string> words;
-  for (const Verb& verb : all_verbs()) {
-    const std::string name = verb.name;
+  for (const Subcommand& subcommand : all_subcommands()) {
+    const std::string name = subcommand.name;
     if (name.find(' ') == name.npos) words.push_back(name);
   }
   return words;
 }
 
 void declare(Options& options, HelpArguments& to) {
-  options.positionals("VERB", to.verb, 0, "a subcommand, of one or two words");
-  options.only_values(verb_words);
+  options.positionals("VERB", to.subcommand, 0, "a subcommand, of one or two words");
+  options.only_values(subcommand_words);
   options.flag("--man", to.man, "print the manual page in roff: `fastsplat help --man render | man -l -`");
   options.flag("--markdown", to.markdown, "print the reference of all subcommands in Markdown");
   options.word("--man-pages", to.pages, "FOLDER", "write all manual pages into an existing folder");
@@ -78,6 +79,7 @@ void declare(Options& options, HelpArguments& to) {
 
 }  // namespace
 
-const Verb verbs::help{"help", "print help on a subcommand, and manual pages", verb<HelpArguments, declare, run>};
+const Subcommand subcommands::help{"help", "print help on a subcommand, and manual pages",
+                                   subcommand<HelpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

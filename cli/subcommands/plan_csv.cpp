@@ -62,7 +62,8 @@ void declare(Options& options, PlanCsvArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_csv{"plan csv", "print merged results as comma-separated values, with full precision",
-                           verb<PlanCsvArguments, declare, run>};
+const Subcommand subcommands::plan_csv{"plan csv",
+                                       "print merged results as comma-separated values, with full precision",
+                                       subcommand<PlanCsvArguments, declare, run>};
 
 }  // namespace fastsplat::cli

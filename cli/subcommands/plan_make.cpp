@@ -69,7 +69,7 @@ void declare(Options& options, PlanMakeArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_make{"plan make", "expand the axes of a specification into cases",
-                            verb<PlanMakeArguments, declare, run>};
+const Subcommand subcommands::plan_make{"plan make", "expand the axes of a specification into cases",
+                                        subcommand<PlanMakeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

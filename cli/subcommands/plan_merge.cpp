@@ -75,7 +75,7 @@ void declare(Options& options, PlanMergeArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_merge{"plan merge", "merge the results of a plan into one file",
-                             verb<PlanMergeArguments, declare, run>};
+const Subcommand subcommands::plan_merge{"plan merge", "merge the results of a plan into one file",
+                                         subcommand<PlanMergeArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -146,7 +146,7 @@ void declare(Options& options, PlanParetoArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_pareto{"plan pareto", "list the Pareto front of two metrics",
-                              verb<PlanParetoArguments, declare, run>};
+const Subcommand subcommands::plan_pareto{"plan pareto", "list the Pareto front of two metrics",
+                                          subcommand<PlanParetoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

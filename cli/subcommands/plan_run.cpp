@@ -105,6 +105,7 @@ void declare(Options& options, PlanRunArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_run{"plan run", "run the open cases of a plan", verb<PlanRunArguments, declare, run>};
+const Subcommand subcommands::plan_run{"plan run", "run the open cases of a plan",
+                                       subcommand<PlanRunArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -81,7 +81,7 @@ void declare(Options& options, PlanStatusArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_status{"plan status", "count done, failed and missing cases of a plan",
-                              verb<PlanStatusArguments, declare, run>};
+const Subcommand subcommands::plan_status{"plan status", "count done, failed and missing cases of a plan",
+                                          subcommand<PlanStatusArguments, declare, run>};
 
 }  // namespace fastsplat::cli

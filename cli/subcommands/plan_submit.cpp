@@ -303,7 +303,7 @@ void declare(Options& options, PlanSubmitArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_submit{"plan submit", "submit a plan to a cluster: Slurm, LSF, SGE, GNU parallel",
-                              verb<PlanSubmitArguments, declare, run>};
+const Subcommand subcommands::plan_submit{"plan submit", "submit a plan to a cluster: Slurm, LSF, SGE, GNU parallel",
+                                          subcommand<PlanSubmitArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -61,7 +61,7 @@ void declare(Options& options, PlanTableArguments& to) {
 
 }  // namespace
 
-const Verb verbs::plan_table{"plan table", "print selected rows and columns of merged results, sorted",
-                             verb<PlanTableArguments, declare, run>};
+const Subcommand subcommands::plan_table{"plan table", "print selected rows and columns of merged results, sorted",
+                                         subcommand<PlanTableArguments, declare, run>};
 
 }  // namespace fastsplat::cli

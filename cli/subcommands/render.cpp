@@ -192,6 +192,7 @@ ExitCode run(const RenderArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::render{"render", "render a volume or 3-D Gaussians to an image", verb<RenderArguments, declare, run>};
+const Subcommand subcommands::render{"render", "render a volume or 3-D Gaussians to an image",
+                                     subcommand<RenderArguments, declare, run>};
 
 }  // namespace fastsplat::cli

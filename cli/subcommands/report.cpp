@@ -31,15 +31,15 @@ std::vector<std::string> written_by(const ReportArguments& arguments) {
 }
 
 void check(const ReportArguments& arguments, const std::vector<report::NamedPicture>& pictures) {
-  const bool faces = !(arguments.junit.empty() && arguments.csv.empty() && arguments.markdown.empty());
-  if (arguments.results.empty() && (pictures.empty() || faces)) {
+  const bool output_formats = !(arguments.junit.empty() && arguments.csv.empty() && arguments.markdown.empty());
+  if (arguments.results.empty() && (pictures.empty() || output_formats)) {
     throw_usage({.where = {},
                  .what = "nothing to report on",
                  .expected = {},
                  .got = {},
                  .fix = "name results written with --json, for example compare.json"});
   }
-  if (arguments.out.empty() && !faces) {
+  if (arguments.out.empty() && !output_formats) {
     throw_usage({.where = {},
                  .what = "nothing to write",
                  .expected = "--out, --junit, --csv or --markdown",
@@ -77,7 +77,7 @@ void check(const ReportArguments& arguments, const std::vector<report::NamedPict
 }
 
 /// Writes the requested output formats; generates all texts before the first file.
-void write_faces(const ReportArguments& arguments, const std::vector<report::Result>& results) {
+void write_output_formats(const ReportArguments& arguments, const std::vector<report::Result>& results) {
   const std::string junit = arguments.junit.empty() ? "" : report::to_junit(results);
   const std::string csv = arguments.csv.empty() ? "" : report::to_csv(results);
   const std::string markdown = arguments.markdown.empty() ? "" : report::to_markdown(results);
@@ -110,7 +110,7 @@ ExitCode run(const ReportArguments& arguments) {
   } else {
     made = report::make_report(request);
   }
-  write_faces(arguments, request.results);
+  write_output_formats(arguments, request.results);
   if (!arguments.out.empty()) write_text_file(arguments.out, made.html);
 
   const bool judged = made.verdict.status != report::Status::Measured;
@@ -161,8 +161,8 @@ void declare(Options& options, ReportArguments& to) {
 
 }  // namespace
 
-const Verb verbs::report{"report",
-                         "write results and pictures as one page that opens from disk, or as JUnit XML, CSV, Markdown",
-                         verb<ReportArguments, declare, run>};
+const Subcommand subcommands::report{
+    "report", "write results and pictures as one page that opens from disk, or as JUnit XML, CSV, Markdown",
+    subcommand<ReportArguments, declare, run>};
 
 }  // namespace fastsplat::cli

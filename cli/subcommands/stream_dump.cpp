@@ -66,7 +66,7 @@ ExitCode run(const StreamDumpArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_dump{"stream dump", "print a stream, one line per record",
-                              verb<StreamDumpArguments, declare, run>};
+const Subcommand subcommands::stream_dump{"stream dump", "print a stream, one line per record",
+                                          subcommand<StreamDumpArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -139,7 +139,7 @@ ExitCode run(const StreamRecordArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_record{"stream record", "compile a scene into a stream file",
-                                verb<StreamRecordArguments, declare, run>};
+const Subcommand subcommands::stream_record{"stream record", "compile a scene into a stream file",
+                                            subcommand<StreamRecordArguments, declare, run>};
 
 }  // namespace fastsplat::cli

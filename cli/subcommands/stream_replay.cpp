@@ -96,7 +96,7 @@ ExitCode run(const StreamReplayArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_replay{"stream replay", "feed a stream to the integer device",
-                                verb<StreamReplayArguments, declare, run>};
+const Subcommand subcommands::stream_replay{"stream replay", "feed a stream to the integer device",
+                                            subcommand<StreamReplayArguments, declare, run>};
 
 }  // namespace fastsplat::cli

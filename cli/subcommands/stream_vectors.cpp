@@ -94,7 +94,7 @@ ExitCode run(const StreamVectorsArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::stream_vectors{"stream vectors", "write a stream and its expected taps as plain text",
-                                 verb<StreamVectorsArguments, declare, run>};
+const Subcommand subcommands::stream_vectors{"stream vectors", "write a stream and its expected taps as plain text",
+                                             subcommand<StreamVectorsArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -120,7 +120,7 @@ Gain save_coverage(const Checked& checked, const std::string& path, const cmodel
 /// Saves the streams that ran: all of a passing campaign, or up to the failed one. Stops at the first write error.
 std::vector<SavedStream> save_streams(const VerifyArguments& arguments, const Checked& checked,
                                       const ConfigFlags& config, const testbench::VerifyOptions& options,
-                                      const std::vector<std::string>& names, LateResults& results) {
+                                      const std::vector<std::string>& names, ResultWriter& results) {
   std::vector<SavedStream> saved;
   if (names.empty()) return saved;
   const auto campaign = campaign_from(arguments, options);
@@ -166,7 +166,7 @@ Failure look_into(const Checked& checked, const VerifyArguments& arguments, cons
 
 void write_junit(const std::string& path, const nlohmann::ordered_json& json) {
   if (path.empty()) return;
-  write_text_file(path, report::to_junit({{.file = path, .verb = "verify", .json = json}}));
+  write_text_file(path, report::to_junit({{.file = path, .subcommand = "verify", .json = json}}));
 }
 
 ExitCode list_faults(const VerifyArguments& arguments) {
@@ -244,7 +244,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
                             result.resets_late == 1 ? "is shorter, and was reset after its last beat"
                                                     : "are shorter, and were reset after their last beat"));
   }
-  LateResults results;
+  ResultWriter results;
   if (!arguments.coverage.empty() && verdict == testbench::Verdict::Pass)
     results.write([&] { result.coverage = save_coverage(checked, arguments.coverage, config); });
   if (result.coverage) output.line(to_text(*result.coverage));
@@ -285,7 +285,7 @@ ExitCode run(const VerifyArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::verify{"verify", "compare every tap, pixel and counter of the RTL with the model",
-                         verb<VerifyArguments, declare, run>};
+const Subcommand subcommands::verify{"verify", "compare every tap, pixel and counter of the RTL with the model",
+                                     subcommand<VerifyArguments, declare, run>};
 
 }  // namespace fastsplat::cli

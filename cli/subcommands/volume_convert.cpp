@@ -84,7 +84,8 @@ ExitCode run(const VolumeConvertArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::volume_convert{"volume convert", "convert a volume to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
-                                 verb<VolumeConvertArguments, declare, run>};
+const Subcommand subcommands::volume_convert{"volume convert",
+                                             "convert a volume to .nrrd, .nhdr, .nii, .nii.gz, .mha or .mhd",
+                                             subcommand<VolumeConvertArguments, declare, run>};
 
 }  // namespace fastsplat::cli

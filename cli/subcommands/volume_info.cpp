@@ -149,7 +149,7 @@ ExitCode run(const VolumeInfoArguments& arguments) {
 
 }  // namespace
 
-const Verb verbs::volume_info{"volume info", "print size, spacing, type and range of a volume",
-                              verb<VolumeInfoArguments, declare, run>};
+const Subcommand subcommands::volume_info{"volume info", "print size, spacing, type and range of a volume",
+                                          subcommand<VolumeInfoArguments, declare, run>};
 
 }  // namespace fastsplat::cli

@@ -23,7 +23,7 @@ class DensityStage {
   /// The frame's solid pattern, which also tints sheets of colours.
   const PatternUnit& pattern() const { return classify_.pattern(); }
   /// Halo: pixels that a sheet holds on each side of the tile.
-  static int rim(Mode mode) { return holds_densities(mode) ? 1 : 0; }
+  static int halo(Mode mode) { return holds_densities(mode) ? 1 : 0; }
   void begin_tile(const BeginTile& tile, const BeginFrame& frame) {
     tile_ = tile;
     frame_width_ = frame.width;

@@ -257,7 +257,7 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
       }
     }
   }
-  if (!every_sample(tile_.mode)) dirty_.mark(x + rim_, y + rim_, width, height);
+  if (!every_sample(tile_.mode)) dirty_.mark(x + halo_, y + halo_, width, height);
   counters_.windows += windows;
   sheet_.windows += windows;
   const std::uint64_t since = at;
@@ -317,8 +317,8 @@ void CycleModel::begin_tile(const BeginTile& record, std::uint64_t at) {
   leave(at, done);
   tile_ = record;
   tile_open_ = true;
-  rim_ = holds_densities(record.mode) ? 1 : 0;
-  dirty_.begin_tile(record.width + 2 * rim_, record.height + 2 * rim_);
+  halo_ = holds_densities(record.mode) ? 1 : 0;
+  dirty_.begin_tile(record.width + 2 * halo_, record.height + 2 * halo_);
   span_ = {.tile = record.tile, .begun = done};
   sheet_ = {};
   window_issued_ = 0;
@@ -350,14 +350,14 @@ void CycleModel::end_sheet(std::uint64_t at) {
   leave(at, at);
   ++counters_.sheets;
   const std::uint64_t blocks = dirty_.count();
-  if (rim_ == 0) counters_.dirty_blocks += blocks;
+  if (halo_ == 0) counters_.dirty_blocks += blocks;
   // Densities are only copied here, a block a cycle.
-  const std::uint64_t slices = rim_ > 0 ? 1 : static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
+  const std::uint64_t slices = halo_ > 0 ? 1 : static_cast<std::uint64_t>(config_.slices()), picks = blocks * slices;
   const std::uint64_t first = std::max(at + delay_ + weight_delay_ + stages::kWalk, walk_free_);
   const std::uint64_t last = first + std::max<std::uint64_t>(picks, 1) - 1;  // an empty walk takes a cycle
   walk_free_ = last + stages::kNextWalk;
   std::uint64_t done = last, worked = first + picks;  // the walk's last cycle, and the one after its last pick
-  if (rim_ > 0) {
+  if (halo_ > 0) {
     if (waits_) worked = (done = classify(last)) + 1;
     waits_ = {.number = sheet_.sheet, .blocks = {}};
     dirty_.each([&](int column, int row) { waits_->blocks.emplace_back(column, row); });
@@ -377,7 +377,7 @@ void CycleModel::end_sheet(std::uint64_t at) {
   sheet_.walk_to = done + 1;
   sheet_.picks = worked - first;
   if (options_.spans != nullptr) options_.spans->on_sheet(sheet_);
-  if (options_.taps != nullptr && rim_ == 0) {
+  if (options_.taps != nullptr && halo_ == 0) {
     std::uint64_t pick = first + slices - 1;  // of a block's last slice
     dirty_.each([&](int column, int row) {
       tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes, row * config_.lanes);
@@ -399,7 +399,7 @@ std::uint64_t CycleModel::classify(std::uint64_t at) {
   const std::uint32_t open = std::exchange(sheet_.sheet, waits_->number);
   std::uint64_t pick = first + stages::density_pick(config_);
   for (const auto& [column, row] : waits_->blocks) {
-    tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes - rim_, row * config_.lanes - rim_);
+    tap(Tap::Composite, pick + stages::kComposite, 0, column * config_.lanes - halo_, row * config_.lanes - halo_);
     pick += steps;
   }
   sheet_.sheet = open;

@@ -82,11 +82,11 @@ struct Fetch {
 };
 
 struct CycleOptions {
-  const Willing* input = nullptr;   ///< when the source begins to offer a beat; null: always
-  const Willing* output = nullptr;  ///< when the sink takes pixels; null: always
-  std::uint64_t first_beat = 0;     ///< cycle after reset from which the source has a beat
-  bool sliced = false;              ///< the ports are fastsplat_top's: a register slice lies at each stream
-  TapSink* taps = nullptr;          ///< every event with its cycle; payloads are empty
+  const ReadyPattern* input = nullptr;   ///< when the source begins to offer a beat; null: always
+  const ReadyPattern* output = nullptr;  ///< when the sink takes pixels; null: always
+  std::uint64_t first_beat = 0;          ///< cycle after reset from which the source has a beat
+  bool sliced = false;                   ///< the ports are fastsplat_top's: a register slice lies at each stream
+  TapSink* taps = nullptr;               ///< every event with its cycle; payloads are empty
   CycleSink* spans = nullptr;
   const CullLog* culls = nullptr;   ///< of all tiles, for a device that culls; null: nothing is hidden
   std::optional<Fetch> fetch = {};  ///< empty: every beat is sent
@@ -219,7 +219,7 @@ class CycleModel final : public Device {
     std::uint32_t number = 0;
     std::vector<std::pair<int, int>> blocks;  ///< dirty blocks: column, row
   };
-  int rim_ = 0;                        ///< halo of its sheets, pixels
+  int halo_ = 0;                       ///< halo of its sheets, pixels
   std::optional<DensitySheet> waits_;  ///< for the sheet behind it
 };
 

@@ -10,7 +10,7 @@ std::uint64_t QueuedDevice::Arrival::next(std::uint64_t cycle) const {
   return pattern == nullptr ? there : pattern->next(there);
 }
 
-CycleOptions QueuedDevice::with(const CycleOptions& options, const Willing& arrival, CycleSink& spans) {
+CycleOptions QueuedDevice::with(const CycleOptions& options, const ReadyPattern& arrival, CycleSink& spans) {
   CycleOptions out = options;
   out.input = &arrival;
   out.spans = &spans;

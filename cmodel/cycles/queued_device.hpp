@@ -47,9 +47,9 @@ class QueuedDevice final : private CycleSink {
 
  private:
   /// The source as decode sees it: the next beat is offered from `at` on, in the pattern's ready cycles.
-  struct Arrival final : Willing {
+  struct Arrival final : ReadyPattern {
     std::uint64_t at = 0;
-    const Willing* pattern = nullptr;
+    const ReadyPattern* pattern = nullptr;
     std::uint64_t next(std::uint64_t cycle) const override;
   };
 
@@ -57,7 +57,7 @@ class QueuedDevice final : private CycleSink {
   void on_verdict(const VerdictCycles& verdict) override;
   void on_sheet(const SheetCycles& sheet) override;
   void on_tile(const TileCycles& tile) override;
-  static CycleOptions with(const CycleOptions& options, const Willing& arrival, CycleSink& spans);
+  static CycleOptions with(const CycleOptions& options, const ReadyPattern& arrival, CycleSink& spans);
 
   CycleSink* listener_;  ///< may be null
   Arrival arrival_;

@@ -6,9 +6,9 @@
 
 namespace fastsplat::cmodel {
 
-class Willing {
+class ReadyPattern {
  public:
-  virtual ~Willing() = default;
+  virtual ~ReadyPattern() = default;
   /// The first ready cycle at or after `cycle`. There must be one.
   virtual std::uint64_t next(std::uint64_t cycle) const = 0;
 };

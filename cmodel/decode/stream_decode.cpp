@@ -280,9 +280,9 @@ void StreamDecode::check(const BeginTile& record) {
                                                       : "2"),
            std::to_string(static_cast<int>(record.mode)));
   expect_most(std::int64_t{record.tile} + 1, frame_.tiles, "more tiles than announced");
-  const int rim = densities ? 2 : 0;  // halo of a pixel on each side
-  expect_within(record.width, 1, config_.tile_width - rim, "tile width");
-  expect_within(record.height, 1, config_.tile_height - rim, "tile height");
+  const int halo = densities ? 2 : 0;  // halo of a pixel on each side
+  expect_within(record.width, 1, config_.tile_width - halo, "tile width");
+  expect_within(record.height, 1, config_.tile_height - halo, "tile height");
   expect_least(record.x, 0, "tile begins outside the image in x");
   expect_least(record.y, 0, "tile begins outside the image in y");
   const std::int64_t end_x = std::int64_t{record.x} + record.width, end_y = std::int64_t{record.y} + record.height;

@@ -26,8 +26,9 @@ struct BandReport {
 // - sheets(), reach(): sheets of the frame; a splat has records in at most reach() sheets after its first
 // - numbers(sheet): the splats whose first sheet this is, a span
 // - prefetch(number): announces that the splat begins soon
-// - for_each_place(unit, number, keep, visit): calls visit(Ready) for each record of the splat in a sheet, placed by
-//   the unit; with `keep`, Ready::weights holds an ellipse's weights
+// - for_each_place(unit, number, keep, visit): calls visit(ActiveSplat) for each record of the splat in a sheet, placed
+// by
+//   the unit; with `keep`, ActiveSplat::weights holds an ellipse's weights
 // - next_share(splat, sheet): {words, saturated, empty()} of its records in this sheet; sheets come in order
 // - for_each_outline(splat, sheet, last, visit): calls visit({largest, excess, saturated}) for its share of each of
 //   these sheets
@@ -38,8 +39,8 @@ struct BandReport {
 /// An active splat of a band, or one record of its ellipse, before its next sheet. `Rest` is the state that Splats
 /// keeps.
 template <class Rest>
-struct Ready {
-  Placed placed;
+struct ActiveSplat {
+  PlacedFootprint placed;
   std::unique_ptr<std::uint16_t[]> weights;  ///< of an ellipse
   std::int32_t last_sheet = 0;               ///< after it all shares are empty
   Rest rest;
@@ -49,7 +50,7 @@ struct Ready {
 template <class Word, class Splats>
 class BandWalk {
  public:
-  using Splat = Ready<typename Splats::Rest>;
+  using Splat = ActiveSplat<typename Splats::Rest>;
   /// `splats` and `unit` must outlive it. `first`: this is the tile's first band.
   BandWalk(const Splats& splats, bool first, TileUnit<Word>& unit) : splats_(splats), unit_(unit) {
     unit_.begin_band(splats.band(), first, splats.reach());
@@ -149,7 +150,7 @@ class BandWalk {
 template <class Word, class Splats>
 class CullWalk {
  public:
-  using Splat = Ready<typename Splats::Rest>;
+  using Splat = ActiveSplat<typename Splats::Rest>;
   CullWalk(const Splats& splats, TileUnit<Word>& unit)
       : splats_(splats), unit_(unit), cells_(static_cast<std::size_t>(splats.cells())) {
     unit_.begin_band(splats.band(), true, 0);

@@ -47,9 +47,9 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   tile_ = tile;
   first_band_ = first;
   samples_ = every_sample(tile.mode);
-  rim_ = DensityStage::rim(tile.mode);
-  width_ = tile.width + 2 * rim_;
-  height_ = tile.height + 2 * rim_;
+  halo_ = DensityStage::halo(tile.mode);
+  width_ = tile.width + 2 * halo_;
+  height_ = tile.height + 2 * halo_;
   if (!samples_) sheet_.resize(width_, height_, tables_.reach);
   const std::uint32_t one = std::uint32_t{1} << tables_.config.composite_frac_bits;
   picture_.assign(static_cast<std::size_t>(tile.width) * tile.height + kPictureSlack,
@@ -68,8 +68,8 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   now_ = waiting_jobs_ = room_taken_ = 0;
   any_frozen_ = false;
   sound_ = (!samples_ || tables_.samples) &&
-           (rim_ == 0 ? !tables_.tints() || tile.mode == Mode::Sum || samples_ : densities_.has_value());
-  if (rim_ > 0 && densities_) {
+           (halo_ == 0 ? !tables_.tints() || tile.mode == Mode::Sum || samples_ : densities_.has_value());
+  if (halo_ > 0 && densities_) {
     densities_->begin_tile(tile, tables_.frame);
     compositor_.begin_tile(tile.mode, tile.width, tile.height);
   }
@@ -86,7 +86,7 @@ std::uint16_t* TileUnit<T>::room(std::size_t words) {
 }
 
 template <class T>
-void TileUnit<T>::clip(Placed& placed, int x, int y) {
+void TileUnit<T>::clip(PlacedFootprint& placed, int x, int y) {
   const int i0 = std::max(0, -x), i1 = std::min<int>(placed.across, width_ - x);
   const int j0 = std::max(0, -y), j1 = std::min<int>(placed.down, height_ - y);
   const std::size_t pitch = pitch_of(placed.across);
@@ -110,8 +110,8 @@ void TileUnit<T>::clip(Placed& placed, int x, int y) {
 }
 
 template <class T>
-Placed TileUnit<T>::outline(int x, int y, int width, int height) const {
-  Placed out{.counted = first_band_ || y >= 0};
+PlacedFootprint TileUnit<T>::outline(int x, int y, int width, int height) const {
+  PlacedFootprint out{.counted = first_band_ || y >= 0};
   const int x0 = std::max(x, 0), x1 = std::min(x + width, width_);
   const int y0 = std::max(y, 0), y1 = std::min(y + height, height_);
   out.windows = static_cast<std::uint16_t>((width >> lane_bits_) * (height >> lane_bits_));
@@ -124,10 +124,10 @@ Placed TileUnit<T>::outline(int x, int y, int width, int height) const {
 }
 
 template <class T>
-Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) {
-  const int x = sx.origin + rim_, y = sy.origin + rim_;
+PlacedFootprint TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const SnappedAxis& sy) {
+  const int x = sx.origin + halo_, y = sy.origin + halo_;
   const Shape& shape = tables_.memo.shape(set);
-  Placed out = outline(x, y, shape.padded, shape.padded);
+  PlacedFootprint out = outline(x, y, shape.padded, shape.padded);
   out.set = static_cast<std::uint16_t>(set);
   if (out.inside == 0) return out;
   const std::size_t number = tables_.memo.number(sx.phase, sy.phase);
@@ -144,14 +144,14 @@ Placed TileUnit<T>::place(std::uint32_t set, const SnappedAxis& sx, const Snappe
 }
 
 template <class T>
-Placed TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept) {
+PlacedFootprint TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept) {
   assert(tables_.ellipses);
   const EllipseAxis x = ellipse_axis(tables_.config, record.x, record.windows.left);
   const EllipseAxis y = ellipse_axis(tables_.config, record.y, record.windows.top);
-  const int left = x.origin + rim_, top = y.origin + rim_;
+  const int left = x.origin + halo_, top = y.origin + halo_;
   const int width = static_cast<int>(record.windows.columns) * lanes_,
             height = static_cast<int>(record.windows.rows) * lanes_;
-  Placed out = outline(left, top, width, height);
+  PlacedFootprint out = outline(left, top, width, height);
   out.set = static_cast<std::uint16_t>(heaviest_.size() - 1);
   if (out.inside == 0) return out;
   const EllipseBox box{.column = std::max(0, -left),
@@ -175,7 +175,7 @@ Placed TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<std::uint
 }
 
 template <class T>
-void TileUnit<T>::take(const Placed& placed, const std::array<std::uint32_t, 4>& words) {
+void TileUnit<T>::take(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& words) {
   const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
   const HiddenShare share{largest, largest - words[3]};
   if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
@@ -199,7 +199,7 @@ void TileUnit<T>::splats(std::span<const SplatRecord> records) {
       }
     }
     const SnappedAxis x = snap_(record.x, rho, counting), y = snap_(record.y, rho, counting);
-    const Placed placed = place(record.set, x, y);
+    const PlacedFootprint placed = place(record.set, x, y);
     if (culls_)
       add(placed, record.colour);
     else
@@ -234,14 +234,14 @@ void TileUnit<T>::cull_blocks(std::span<const CullBlock> records) {
 }
 
 template <class T>
-bool TileUnit<T>::can_hide(const Placed& placed, std::span<const HiddenShare> shares) const {
+bool TileUnit<T>::can_hide(const PlacedFootprint& placed, std::span<const HiddenShare> shares) const {
   std::uint32_t excess = 0;
   for (const HiddenShare& share : shares) excess = std::max(excess, share.excess);
   return excess == 0 || most_excess_ + product(placed, excess) <= tables_.opacity_excess;
 }
 
 template <class T>
-std::uint64_t TileUnit<T>::hide(const Placed& placed, std::span<const HiddenShare> shares) {
+std::uint64_t TileUnit<T>::hide(const PlacedFootprint& placed, std::span<const HiddenShare> shares) {
   std::uint64_t records = 0;
   std::size_t at = now_;
   for (const HiddenShare& share : shares) {
@@ -305,7 +305,7 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   draw();
   Slot& slot = slots_[now_];
   if (!sound_ || samples_) return;
-  if (rim_ > 0) {
+  if (halo_ > 0) {
     end_densities();
     return;
   }
@@ -458,7 +458,7 @@ void TileUnit<T>::end_tile(const EndTile&) {
     return;
   }
   Counting counting{counters_};
-  if (rim_ > 0) {
+  if (halo_ > 0) {
     densities_->end_tile(
         [&](const SheetWord& sums, int x, int y) { compositor_.step(sums, x, y, counters_, counting); },
         [&](int, int, std::uint32_t) { ++counters_.dirty_blocks; });
@@ -469,7 +469,7 @@ void TileUnit<T>::end_tile(const EndTile&) {
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
       const PixelState& pixel =
-          rim_ > 0 ? compositor_.at(x, y) : picture_[static_cast<std::size_t>(y) * tile_.width + x];
+          halo_ > 0 ? compositor_.at(x, y) : picture_[static_cast<std::size_t>(y) * tile_.width + x];
       const auto words = pixel_out_(tile_.mode, pixel, counting);
       out.words.insert(out.words.end(), words.begin(), words.end());
     }

@@ -26,7 +26,7 @@
 namespace fastsplat::cmodel::fast {
 
 /// A placed footprint: all that does not change from sheet to sheet of a tile.
-struct Placed {
+struct PlacedFootprint {
   std::uint64_t columns = 0;  ///< columns of blocks its windows touch, a bit each
   const std::uint16_t* weights = nullptr;
   std::uint32_t at = 0;                ///< index of its first pixel in the sheet or picture
@@ -65,10 +65,10 @@ class TileUnit final : public RecordSink {
 
   /// splats() in two steps: place() once per splat and tile, add() once per sheet. In modes 4 and 5 add() must precede
   /// the next place(). `x` and `y` are snapped, relative to the tile.
-  Placed place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y);
+  PlacedFootprint place(std::uint32_t set, const SnappedAxis& x, const SnappedAxis& y);
   /// The same for ellipses(). The weights are in `kept`; if that is null, they are valid until the next place().
-  Placed place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept = nullptr);
-  void add(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
+  PlacedFootprint place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept = nullptr);
+  void add(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) {
     count(placed, 1);
     if (samples_)
       counters_.pixels_composited += placed.weighted;
@@ -77,8 +77,8 @@ class TileUnit final : public RecordSink {
     if (placed.weighted != 0) put(placed, colour);
   }
   /// Whether no picture depends on the splat in this sheet or a later one: hide() may then replace add().
-  bool hidden(const Placed& placed) const {
-    if (samples_ || rim_ > 0) return false;
+  bool hidden(const PlacedFootprint& placed) const {
+    if (samples_ || halo_ > 0) return false;
     if (placed.weighted == 0) return true;
     bool frozen = any_frozen_ && tables_.plan.hides;
     for (std::size_t by = placed.first; by <= placed.last; ++by)
@@ -86,15 +86,15 @@ class TileUnit final : public RecordSink {
     return frozen;
   }
   /// Counts a hidden splat's shares of this sheet and the following ones without drawing them. Returns their number.
-  std::uint64_t hide(const Placed& placed, std::span<const HiddenShare> shares);
+  std::uint64_t hide(const PlacedFootprint& placed, std::span<const HiddenShare> shares);
   /// Whether hide() would be exact; if not, add() each share in its turn. True if no share has an excess.
-  bool can_hide(const Placed& placed, std::span<const HiddenShare> shares) const;
+  bool can_hide(const PlacedFootprint& placed, std::span<const HiddenShare> shares) const;
 
   // For a device that culls (docs/numerics.md, section 6.1), in modes 0 and 1 and in bands that are whole tiles: these
   // replace hidden() and hide(). Footprints are single windows, and the map's cells are blocks.
   bool culls() const { return culls_; }
   /// Whether the sheets up to the last but one hide all of the splat.
-  bool culled(const Placed& placed) const {
+  bool culled(const PlacedFootprint& placed) const {
     for (std::size_t by = placed.first; by <= placed.last; ++by)
       if ((placed.columns & ~opaque_[sheet_parity_][by]) != 0) return false;
     return true;
@@ -124,10 +124,10 @@ class TileUnit final : public RecordSink {
   };
 
   /// Upper bound of what `word` adds to a pixel.
-  std::uint64_t product(const Placed& placed, std::uint32_t word) const {
+  std::uint64_t product(const PlacedFootprint& placed, std::uint32_t word) const {
     return placed.weighted == 0 ? 0 : ((std::uint64_t{word} * heaviest_[placed.set]) >> dropped_) + 1;
   }
-  void count(const Placed& placed, std::uint64_t records) {
+  void count(const PlacedFootprint& placed, std::uint64_t records) {
     if (placed.counted) {
       counters_.splats += records;
       counters_.windows += records * placed.windows;
@@ -135,10 +135,10 @@ class TileUnit final : public RecordSink {
     counters_.lanes_inside += records * placed.inside;
     counters_.lanes_weighted += records * placed.weighted;
   }
-  static void touch(const Placed& placed, std::vector<std::uint64_t>& dirty) {
+  static void touch(const PlacedFootprint& placed, std::vector<std::uint64_t>& dirty) {
     for (std::size_t by = placed.first; by <= placed.last; ++by) dirty[by] |= placed.columns;
   }
-  void put(const Placed& placed, const std::array<std::uint32_t, 4>& colour) {
+  void put(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) {
     SplatJob& job = jobs_[waiting_jobs_];
     job.weights = placed.weights;
     job.at = placed.at;
@@ -151,16 +151,16 @@ class TileUnit final : public RecordSink {
     if (++waiting_jobs_ == kJobs) draw();
   }
   /// A footprint of windows that cover these pixels, without weights.
-  Placed outline(int x, int y, int width, int height) const;
+  PlacedFootprint outline(int x, int y, int width, int height) const;
   /// Index of a pixel in the picture (modes 4 and 5) or in the sheet.
   std::uint32_t memory_at(int x, int y) const {
     return static_cast<std::uint32_t>(samples_ ? static_cast<std::size_t>(y) * width_ + x : sheet_.at(x, y));
   }
   /// Counts the weights inside the tile; in modes 4 and 5 keeps only these.
-  void clip(Placed& placed, int x, int y);
+  void clip(PlacedFootprint& placed, int x, int y);
   /// Memory for weights, valid until the next call.
   std::uint16_t* room(std::size_t words);
-  void take(const Placed& placed, const std::array<std::uint32_t, 4>& words);
+  void take(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& words);
   void draw();
   std::uint32_t largest_word() const;
   void composite(int bx, int by);
@@ -187,7 +187,7 @@ class TileUnit final : public RecordSink {
   std::vector<std::uint32_t> heaviest_;         ///< largest weight, per set, and of ellipses
   std::vector<std::uint32_t> largest_product_;  ///< likewise
   BeginTile tile_;
-  int rim_ = 0, width_ = 0, height_ = 0;  ///< halo; size of the sheet with its halo
+  int halo_ = 0, width_ = 0, height_ = 0;  ///< halo; size of the sheet with its halo
   std::uint32_t sheet_number_ = 0;
   std::optional<DensityStage> densities_;
   Compositor compositor_;  ///< of classified densities

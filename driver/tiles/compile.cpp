@@ -72,7 +72,7 @@ TileBins CompiledFrame::State::make_bins(int threads) const {
       grid, bands, cells, plan.slabs.count, splats.size(), threads,
       [&](std::size_t i) {
         return widened(
-            splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]), rim());
+            splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]), halo());
       },
       [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
 }

@@ -98,7 +98,7 @@ struct CompiledFrame::State {
 
   State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows);
 
-  int rim() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< width of the halo, pixels
+  int halo() const { return cmodel::holds_densities(mode) ? 1 : 0; }  ///< width of the halo, pixels
   bool sliced() const { return plan.use == scene::SheetUse::Sliced; }
   bool shaped() const { return !projected.ellipses.empty(); }
   int first_sheet(std::uint32_t number) const {
@@ -145,8 +145,8 @@ struct CompiledFrame::State {
     const int pf = config.position_frac_bits;
     const std::int32_t x = (splat.x >> pf) - grid.x(tile), y = (splat.y >> pf) - grid.y(tile);
     for (const EllipseSpan& span : EllipseSpans(config, shape, splat.x, splat.y)) {
-      if (x + span.right <= -rim() || x + span.windows.left >= grid.width(tile) + rim() || y + span.bottom <= -rim() ||
-          y + span.windows.top >= grid.height(tile) + rim())
+      if (x + span.right <= -halo() || x + span.windows.left >= grid.width(tile) + halo() ||
+          y + span.bottom <= -halo() || y + span.windows.top >= grid.height(tile) + halo())
         continue;
       visit(cmodel::EllipseRecord{.tag = 0,
                                   .x = splat.x - grid.x(tile) * (1 << pf),

@@ -17,7 +17,7 @@ class BandSplats {
     std::uint32_t number = 0;
     bool grown = false;  ///< CompiledFrame::State::grown()
   };
-  using Ready = cmodel::fast::Ready<Rest>;
+  using ActiveSplat = cmodel::fast::ActiveSplat<Rest>;
 
   BandSplats(const CompiledFrame::State& s, int tile, int band)
       : s_(s), tile_(tile), band_number_(band), band_(s.begin_band(tile, band)) {}
@@ -45,10 +45,10 @@ class BandSplats {
     s_.for_each_ellipse(tile_, number, {}, [&](cmodel::EllipseRecord record) {
       record.y += rows * (1 << pf);
       const int top = (record.y >> pf) + record.windows.top;
-      const int rim = s_.rim();
-      if (top >= band_.height + rim || top + static_cast<int>(record.windows.rows) * s_.config.lanes <= -rim) return;
+      const int halo = s_.halo();
+      if (top >= band_.height + halo || top + static_cast<int>(record.windows.rows) * s_.config.lanes <= -halo) return;
       std::unique_ptr<std::uint16_t[]> weights;
-      Ready one = ready(number, unit.place(record, keep ? &weights : nullptr));
+      ActiveSplat one = ready(number, unit.place(record, keep ? &weights : nullptr));
       one.weights = std::move(weights);
       visit(std::move(one));
     });
@@ -72,7 +72,7 @@ class BandSplats {
   }
 
  private:
-  Ready ready(std::uint32_t number, const cmodel::fast::Placed& placed) const {
+  ActiveSplat ready(std::uint32_t number, const cmodel::fast::PlacedFootprint& placed) const {
     const QuantisedSplat& splat = s_.projected.splats[number];
     const bool grown = s_.grown(number);
     const int last = !s_.sliced() ? splat.depth

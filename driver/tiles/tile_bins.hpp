@@ -19,11 +19,11 @@ struct TileGrid {
   int image_width = 0, image_height = 0, tile_width = 0, tile_height = 0;
 
   /// `rim`: the halo, pixels on each side of the picture's tile that the device's tile also holds.
-  TileGrid(const cmodel::Config& config, int width, int height, int rim = 0)
+  TileGrid(const cmodel::Config& config, int width, int height, int halo = 0)
       : image_width(width),
         image_height(height),
-        tile_width(config.tile_width - 2 * rim),
-        tile_height(config.tile_height - 2 * rim) {}
+        tile_width(config.tile_width - 2 * halo),
+        tile_height(config.tile_height - 2 * halo) {}
   int columns() const { return (image_width + tile_width - 1) / tile_width; }
   int rows() const { return (image_height + tile_height - 1) / tile_height; }
   int count() const { return columns() * rows(); }
@@ -64,8 +64,8 @@ struct Extent {
 };
 
 /// `e` grown by `rim` pixels on each side.
-inline Extent widened(const Extent& e, int rim) {
-  return {e.x0 - rim, e.x1 + rim, e.y0 - rim, e.y1 + rim, e.window_end + rim};
+inline Extent widened(const Extent& e, int halo) {
+  return {e.x0 - halo, e.x1 + halo, e.y0 - halo, e.y1 + halo, e.window_end + halo};
 }
 
 /// A tile cut into square cull cells, row by row (docs/numerics.md, N-8-55); a single cell: no cull groups.

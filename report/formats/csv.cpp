@@ -51,7 +51,7 @@ std::string to_csv(const std::vector<Result>& results) {
       std::vector<std::string> fields(columns.size());
       if (several) {
         fields[0] = results[r].file.string();
-        fields[1] = results[r].verb;
+        fields[1] = results[r].subcommand;
       }
       for (std::size_t c = 0; c < row.size(); ++c) {
         const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(own);

@@ -217,7 +217,7 @@ std::vector<Gate> gates_of(const Result& result) {
       {"closure", closure}, {"compare", compare},    {"verify", verify},          {"cycles", cycles},
       {"errors", errors},   {"errors bound", bound}, {"errors propose", propose}, {"plan", plan}};
   const Verdict verdict = verdict_of(result);
-  const auto found = all.find(result.verb);
+  const auto found = all.find(result.subcommand);
   std::vector<Gate> gates;
   if (found != all.end()) gates = found->second(Figures(result));
   // A failure that no gate shows needs one, and a result without gates gets one.

@@ -41,9 +41,9 @@ std::string xml(const std::string& text) {
 
 /// A test case's class name: build servers split it into folders at dots.
 std::string class_name(const Result& result) {
-  std::string name = "fastsplat." + result.verb;
+  std::string name = "fastsplat." + result.subcommand;
   std::replace(name.begin(), name.end(), ' ', '_');
-  if (result.verb == "plan") name += "." + result.json.value("name", "");
+  if (result.subcommand == "plan") name += "." + result.json.value("name", "");
   return name;
 }
 
@@ -90,8 +90,8 @@ std::string suite(const Result& result, Count& all) {
   }
   all.add(count);
   const std::string command = command_of(result);
-  return fmt::format("  <testsuite name=\"{}\" {}>\n    <properties>\n", xml(result.verb + " " + result.file.string()),
-                     count.attributes()) +
+  return fmt::format("  <testsuite name=\"{}\" {}>\n    <properties>\n",
+                     xml(result.subcommand + " " + result.file.string()), count.attributes()) +
          fmt::format("      <property name=\"verdict\" value=\"{}\"/>\n", xml(verdict_of(result).sentence)) +
          (command.empty() ? "" : fmt::format("      <property name=\"command\" value=\"{}\"/>\n", xml(command))) +
          "    </properties>\n" + cases + "  </testsuite>\n";

@@ -93,7 +93,7 @@ std::string gates_text(const Result& result) {
   std::string text;
   std::size_t told = 0, left = 0;
   for (const Gate& gate : gates_of(result)) {
-    if (result.verb == "plan" && gate.status == Status::Pass) continue;
+    if (result.subcommand == "plan" && gate.status == Status::Pass) continue;
     if (told == kMostRows) {
       ++left;
       continue;
@@ -110,8 +110,8 @@ std::string gates_text(const Result& result) {
 std::string section(const Result& result) {
   const Verdict verdict = verdict_of(result);
   const std::string command = command_of(result);
-  return fmt::format("### {} {}: {}\n\n{}\n\n", cell(result.verb), code(result.file.string()), mark(verdict.status),
-                     cell(verdict.sentence)) +
+  return fmt::format("### {} {}: {}\n\n{}\n\n", cell(result.subcommand), code(result.file.string()),
+                     mark(verdict.status), cell(verdict.sentence)) +
          (command.empty() ? "" : code(command) + "\n\n") + gates_text(result) + table_text(table_of(result));
 }
 

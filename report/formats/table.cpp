@@ -148,7 +148,7 @@ Table table_of(const Result& result) {
                                                   {"family", family},        {"plan", plan},
                                                   {"verify", verify},        {"stream replay", counters},
                                                   {"render", counters},      {"stream record", counters}};
-  const auto found = all.find(result.verb);
+  const auto found = all.find(result.subcommand);
   return found == all.end() ? Table{} : found->second(Figures(result));
 }
 

@@ -35,10 +35,10 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_pattern_destroy(fastsplat_pa
 }
 
 extern "C" FASTSPLAT_API fastsplat_status fastsplat_pattern_at(const fastsplat_pattern* pattern, std::uint64_t cycle,
-                                                               std::int32_t* willing) {
+                                                               std::int32_t* ready) {
   return guarded(__func__, [&](const char* call) {
     require_live(call, pattern, Kind::Pattern);
-    *require(call, "willing", willing) = pattern->pattern.at(cycle) ? 1 : 0;
+    *require(call, "willing", ready) = pattern->pattern.at(cycle) ? 1 : 0;
     return FASTSPLAT_OK;
   });
 }

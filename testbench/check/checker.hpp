@@ -49,11 +49,11 @@ struct CheckReport {
 };
 
 struct CheckOptions {
-  std::uint64_t stop_after = 1000;          ///< mismatches; then no more beats are taken
-  std::size_t keep = 0;                     ///< number of divergences listed in CheckReport::kept
-  const cmodel::Willing* source = nullptr;  ///< when beats are offered to the device; null: always
-  const cmodel::Willing* sink = nullptr;    ///< when its pixels are taken; null: always
-  bool verdicts = false;                    ///< the device's verdicts are reported, too; else they are ignored
+  std::uint64_t stop_after = 1000;               ///< mismatches; then no more beats are taken
+  std::size_t keep = 0;                          ///< number of divergences listed in CheckReport::kept
+  const cmodel::ReadyPattern* source = nullptr;  ///< when beats are offered to the device; null: always
+  const cmodel::ReadyPattern* sink = nullptr;    ///< when its pixels are taken; null: always
+  bool verdicts = false;                         ///< the device's verdicts are reported, too; else they are ignored
 };
 
 /// Receives everything in the order of the device's cycles (RawTapSink): start(), then beats and taps as they pass,

@@ -23,7 +23,7 @@ struct ClosureReport {
 };
 
 std::string closure_markdown(const ClosureReport& report);
-/// In the format of the subcommands' --json, with the verb "closure"; docs/verify.md has the keys.
+/// In the format of the subcommands' --json, with the subcommand "closure"; docs/verify.md has the keys.
 std::string closure_json(const ClosureReport& report);
 
 }  // namespace fastsplat::testbench

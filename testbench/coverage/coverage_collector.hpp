@@ -21,8 +21,8 @@ namespace fastsplat::testbench {
 
 /// How the run's device was driven.
 struct CoverageRun {
-  const cmodel::Willing* source = nullptr;
-  const cmodel::Willing* sink = nullptr;
+  const cmodel::ReadyPattern* source = nullptr;
+  const cmodel::ReadyPattern* sink = nullptr;
   bool sliced = false;  ///< RtlDevice::sliced()
 };
 

@@ -13,7 +13,7 @@ namespace fastsplat::testbench {
 
 /// `always`; `alternate-N` (N cycles on, N off); `every-N` (one cycle in N); `random-P` (P percent of the
 /// cycles, by seed); `burst-N` (seeded runs of up to N cycles on and off).
-class Pattern final : public cmodel::Willing {
+class Pattern final : public cmodel::ReadyPattern {
  public:
   Pattern() = default;
   /// Throws UserError (Usage) for an unknown pattern.

@@ -16,7 +16,7 @@ constexpr cmodel::BeginTile kNone{.mode = {}, .tile = kNoTile, .x = 0, .y = 0, .
 constexpr std::size_t kWords = 4;  ///< of a pixel
 
 /// Width of the halo on the left and top: with densities bank 0 holds column and row -1.
-int rim_of(const cmodel::BeginTile& tile) { return cmodel::holds_densities(tile.mode) ? 1 : 0; }
+int halo_of(const cmodel::BeginTile& tile) { return cmodel::holds_densities(tile.mode) ? 1 : 0; }
 
 }  // namespace
 
@@ -115,26 +115,26 @@ void TapAssembly::window(const RawTap& tap) {
   const Place at{.x = origin(tap.x), .y = origin(tap.y)};
   windows_.push_back({at, tap.tag});
   weight_fields_.unpack(tap.words.data(), banks_, banked_.data());
-  const int mask = lanes_ - 1, rim = rim_of(tile());
+  const int mask = lanes_ - 1, halo = halo_of(tile());
   std::uint32_t* out = payload_.data();
   for (int j = 0; j < lanes_; ++j) {
-    const std::uint32_t* row = &banked_[static_cast<std::size_t>((at.y + rim + j) & mask) * lanes_];
-    for (int i = 0; i < lanes_; ++i) *out++ = row[(at.x + rim + i) & mask];
+    const std::uint32_t* row = &banked_[static_cast<std::size_t>((at.y + halo + j) & mask) * lanes_];
+    for (int i = 0; i < lanes_; ++i) *out++ = row[(at.x + halo + i) & mask];
   }
   emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, at, {payload_.data(), banks_});
 }
 
 void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin, int halo) {
-  const int mask = lanes_ - 1, rim = rim_of(begin);
+  const int mask = lanes_ - 1, halo = halo_of(begin);
   // A window that crosses the tile's edge keeps 0 where nothing is copied.
   const int left = std::clamp(-halo - at.x, 0, lanes_), right = std::clamp(begin.width + halo - at.x, 0, lanes_);
   const int top = std::clamp(-halo - at.y, 0, lanes_), bottom = std::clamp(begin.height + halo - at.y, 0, lanes_);
   if (right - left < lanes_ || bottom - top < lanes_) std::ranges::fill(payload_, 0);
   for (int j = top; j < bottom; ++j) {
-    const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + rim + j) & mask) * lanes_];
+    const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + halo + j) & mask) * lanes_];
     std::uint32_t* out = &payload_[kWords * static_cast<std::size_t>(j) * lanes_];
     for (int i = left; i < right; ++i)
-      std::copy_n(row + kWords * ((at.x + rim + i) & mask), kWords, out + kWords * static_cast<std::size_t>(i));
+      std::copy_n(row + kWords * ((at.x + halo + i) & mask), kWords, out + kWords * static_cast<std::size_t>(i));
   }
 }
 
@@ -148,7 +148,7 @@ TapAssembly::Window TapAssembly::next_window() {
 void TapAssembly::sheet(const RawTap& tap) {
   const Place at = next_window().at;
   sheet_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
-  arrange(at, tile(), rim_of(tile()));
+  arrange(at, tile(), halo_of(tile()));
   emit(cmodel::Tap::Sheet, tap.cycle, sheet_of(tap.tag), tap.tag, at, payload_);
 }
 
@@ -163,9 +163,9 @@ void TapAssembly::composite(const RawTap& tap) {
     return;
   }
   pass_sheets(tap.cycle);
-  const int rim = rim_of(tile());
-  const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_ - rim,
-                 .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_ - rim};
+  const int halo = halo_of(tile());
+  const Place at{.x = static_cast<std::int32_t>(tap.block % columns_) * lanes_ - halo,
+                 .y = static_cast<std::int32_t>(tap.block / columns_) * lanes_ - halo};
   state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
   arrange(at, tile());
   emit(cmodel::Tap::Composite, tap.cycle, composited_sheet(), 0, at, payload_);

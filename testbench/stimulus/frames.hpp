@@ -61,7 +61,7 @@ class Frames {
 
  private:
   /// The source is always ready, except for its pauses, which come in their order.
-  class Source final : public cmodel::Willing {
+  class Source final : public cmodel::ReadyPattern {
    public:
     void begin() { pauses_.clear(); }
     void pause(std::uint64_t from, std::uint64_t to) { pauses_.emplace_back(from, to); }

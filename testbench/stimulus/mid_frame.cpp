@@ -106,10 +106,10 @@ Beats large_tile(const Config& config, const Beats& beats) {
   auto frame = std::get<BeginFrame>(from_beat(out[0]));
   auto& tile_beat = out[behind_first(beats, Opcode::BeginTile) - 1];
   auto tile = std::get<BeginTile>(from_beat(tile_beat));
-  const int rim = cmodel::holds_densities(tile.mode) ? 2 : 0;
+  const int halo = cmodel::holds_densities(tile.mode) ? 2 : 0;
   tile.x = tile.y = 0;
-  tile.width = frame.width = config.tile_width - rim;
-  tile.height = frame.height = config.tile_height - rim;
+  tile.width = frame.width = config.tile_width - halo;
+  tile.height = frame.height = config.tile_height - halo;
   Beats changed;
   append(changed, frame);
   append(changed, tile);

@@ -38,8 +38,8 @@ PixelBox around(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
-             const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet) {
+void add_cull_blocks(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
+                     const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet) {
   const std::vector<SheetRecord> splats = std::exchange(sheet.records, {});
   const bool in_front = random.chance(50);  // all that there is room for
   const auto room = static_cast<std::size_t>(cmodel::cull_sets(config));

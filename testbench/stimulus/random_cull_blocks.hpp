@@ -13,7 +13,7 @@ namespace fastsplat::testbench {
 
 /// Adds cull_blocks to the sheet: most are rectangles around the splats they cover; some are wider, empty or beside the
 /// tile. `rho` by radius set, 1/k pixel.
-void promise(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
-             const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet);
+void add_cull_blocks(const cmodel::Config& config, Random& random, const cmodel::BeginTile& tile,
+                     const std::array<std::uint32_t, 256>& rho, SheetDocument& sheet);
 
 }  // namespace fastsplat::testbench

@@ -452,7 +452,7 @@ class Generator {
     }
     if (hints && random_.chance(2)) sheet.records.emplace_back(cull());
     if (!hints && walls() && random_.chance(30)) wall(sheet);
-    if (!hints) promise(config_, random_, tile_, rho_, sheet);
+    if (!hints) add_cull_blocks(config_, random_, tile_, rho_, sheet);
     return sheet;
   }
 

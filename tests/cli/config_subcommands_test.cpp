@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs that take a configuration: config diff, --set wherever --config is, what a changed one is called
+// The subcommands that take a configuration: config diff, --set wherever --config is, what a changed one is called
 // afterwards.
 #include <gtest/gtest.h>
 
@@ -90,37 +90,37 @@ TEST(ConfigShow, PrintsAChangedConfigurationThatIsReadBack) {
   EXPECT_EQ(config.name, "tiny+rlut.sets=2+radial.entries=128");
 }
 
-std::string help_of(const Verb& verb) {
+std::string help_of(const Subcommand& subcommand) {
   std::vector<std::string> words{"help"};
-  std::istringstream names(verb.name);
+  std::istringstream names(subcommand.name);
   for (std::string word; names >> word;) words.push_back(word);
   return said(words).out;
 }
 
 TEST(Set, IsWhereverAConfigurationIsNamed) {
-  int verbs = 0;
-  for (const Verb& verb : all_verbs()) {
-    const auto help = help_of(verb);
-    const std::string name = verb.name;
+  int subcommands = 0;
+  for (const Subcommand& subcommand : all_subcommands()) {
+    const auto help = help_of(subcommand);
+    const std::string name = subcommand.name;
     const bool named =
         help.find("--config NAME") != std::string::npos || name == "config show" || name == "config check";
     EXPECT_EQ(help.find("--set KEY=VALUE") != std::string::npos, named) << name;
-    verbs += named ? 1 : 0;
+    subcommands += named ? 1 : 0;
   }
-  std::printf("[figure] verbs with --set = %d (limit >= 7)\n", verbs);
-  EXPECT_GE(verbs, 7);
+  std::printf("[figure] verbs with --set = %d (limit >= 7)\n", subcommands);
+  EXPECT_GE(subcommands, 7);
 }
 
 TEST(Index, IsShortForSetWhereverThatIs) {
-  int verbs = 0;
-  for (const Verb& verb : all_verbs()) {
-    const auto help = help_of(verb);
+  int subcommands = 0;
+  for (const Subcommand& subcommand : all_subcommands()) {
+    const auto help = help_of(subcommand);
     const bool set = help.find("--set KEY=VALUE") != std::string::npos;
-    EXPECT_EQ(help.find("--index KIND") != std::string::npos, set) << verb.name;
-    verbs += set ? 1 : 0;
+    EXPECT_EQ(help.find("--index KIND") != std::string::npos, set) << subcommand.name;
+    subcommands += set ? 1 : 0;
   }
-  std::printf("[figure] verbs with --index = %d (limit >= 7)\n", verbs);
-  EXPECT_GE(verbs, 7);
+  std::printf("[figure] verbs with --index = %d (limit >= 7)\n", subcommands);
+  EXPECT_GE(subcommands, 7);
   const auto config = [](const std::string& text) {
     const cli_test::TempFolder folder;
     return driver::load_config(folder.write("changed.toml", text));

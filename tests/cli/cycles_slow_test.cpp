@@ -66,9 +66,9 @@ TEST(Cycles, AreThoseOfVerifyUnderTheSamePatterns) {
   int compared = 0;
   for (const auto& [input, ready] :
        {std::pair{"always", "always"}, {"random-70", "burst-9"}, {"alternate-5", "every-3"}}) {
-    const auto told_by = [&](const std::string& verb) {
-      const auto run = fastsplat({verb, "--volume", "shells:16", "--size", "40", "--config", "tiny", "--input", input,
-                                  "--ready", ready, "--seed", "5", "--json", "-"});
+    const auto told_by = [&](const std::string& subcommand) {
+      const auto run = fastsplat({subcommand, "--volume", "shells:16", "--size", "40", "--config", "tiny", "--input",
+                                  input, "--ready", ready, "--seed", "5", "--json", "-"});
       expect_success(run);
       return json::parse(run.out);
     };

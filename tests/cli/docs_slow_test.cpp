@@ -70,8 +70,8 @@ bool matches(const std::string& line, std::string_view shown) {
   }
 }
 
-// Stands in for ./run: `fastsplat` goes to this build's program; a verb that would build or test again must be one that
-// the real one knows.
+// Stands in for ./run: `fastsplat` goes to this build's program; a subcommand that would build or test again must be
+// one that the real one knows.
 std::string stand_in() {
   return "#!/bin/sh\n"
          "verb=$1\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What help, man pages and completion say of the verbs: all of it, whatever the verbs come to be.
+// What help, man pages and completion say of the subcommands: all of it, whatever the subcommands come to be.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -28,63 +28,63 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Goes through every flag of every verb and counts those that `is_there` finds.
+/// Goes through every flag of every subcommand and counts those that `is_there` finds.
 template <class IsThere>
 void every_flag(const char* where, const IsThere& is_there) {
-  int verbs = 0, flags = 0, missing = 0;
-  for (const Description& verb : describe()) {
-    ++verbs;
-    for (const Flag& flag : verb.flags) {
+  int subcommands = 0, flags = 0, missing = 0;
+  for (const Description& subcommand : describe()) {
+    ++subcommands;
+    for (const Flag& flag : subcommand.flags) {
       for (const auto& name : flag.names) {
         ++flags;
-        if (is_there(verb, flag, name)) continue;
+        if (is_there(subcommand, flag, name)) continue;
         ++missing;
-        ADD_FAILURE() << where << ": " << name << " of '" << verb.name << "' is not there";
+        ADD_FAILURE() << where << ": " << name << " of '" << subcommand.name << "' is not there";
       }
     }
   }
-  std::printf("[figure] %s: verbs = %d, flags = %d, missing = %d (limit 0)\n", where, verbs, flags, missing);
-  EXPECT_GT(verbs, 20);
+  std::printf("[figure] %s: verbs = %d, flags = %d, missing = %d (limit 0)\n", where, subcommands, flags, missing);
+  EXPECT_GT(subcommands, 20);
   EXPECT_GT(flags, 300) << "nothing was checked";
 }
 
 TEST(Help, DescriptionsAreWhatTheVerbsDeclare) {
   const auto all = describe();
-  ASSERT_EQ(all.size(), all_verbs().size() + 1);
+  ASSERT_EQ(all.size(), all_subcommands().size() + 1);
   EXPECT_EQ(all.front().name, "");
-  for (std::size_t at = 0; at < all_verbs().size(); ++at) {
-    EXPECT_EQ(all[at + 1].name, all_verbs()[at].name);
-    EXPECT_EQ(all[at + 1].summary, all_verbs()[at].summary);
-    EXPECT_EQ(all[at + 1].group, all_verbs()[at].declare == nullptr);
+  for (std::size_t at = 0; at < all_subcommands().size(); ++at) {
+    EXPECT_EQ(all[at + 1].name, all_subcommands()[at].name);
+    EXPECT_EQ(all[at + 1].summary, all_subcommands()[at].summary);
+    EXPECT_EQ(all[at + 1].group, all_subcommands()[at].declare == nullptr);
   }
-  // What CLI11 tells of a verb names every flag; so that a flag declared past the descriptions is seen.
-  for (const Description& verb : all) {
-    std::istringstream names(verb.name);
+  // What CLI11 tells of a subcommand names every flag; so that a flag declared past the descriptions is seen.
+  for (const Description& subcommand : all) {
+    std::istringstream names(subcommand.name);
     const Words words{std::istream_iterator<std::string>(names), {}};
     std::istringstream lines(help_on(words));
     for (std::string line; std::getline(lines, line);) {
       const auto flag = line.substr(0, line.find_first_of(" ,", 3));
       if (!line.starts_with("  -") || holds(line, "--help")) continue;
       bool described = false;
-      for (const Flag& one : verb.flags) {
+      for (const Flag& one : subcommand.flags) {
         for (const auto& name : one.names) described = described || "  " + name == flag;
       }
-      EXPECT_TRUE(described) << verb.name << ": " << line;
+      EXPECT_TRUE(described) << subcommand.name << ": " << line;
     }
   }
 }
 
 TEST(Help, ManPagesHaveEveryVerbAndFlag) {
   const auto all = describe();
-  every_flag("man", [&](const Description& verb, const Flag&, const std::string& name) {
-    const std::string page = man_page(verb, all);
+  every_flag("man", [&](const Description& subcommand, const Flag&, const std::string& name) {
+    const std::string page = man_page(subcommand, all);
     return holds(page, "\\f" + std::string(name.starts_with('-') ? "B" : "I") + replaced(name, "-", "\\-") + "\\fR");
   });
-  for (const Description& verb : all) {
-    const std::string page = man_page(verb, all);
-    EXPECT_TRUE(holds(page, ".SH \"EXIT STATUS\"")) << verb.name;
-    EXPECT_TRUE(holds(man_page(all.front(), all), replaced(man_page_name(verb), "-", "\\-"))) << verb.name;
-    for (const unsigned char c : page) EXPECT_LT(c, 128) << verb.name << " holds what not every terminal shows";
+  for (const Description& subcommand : all) {
+    const std::string page = man_page(subcommand, all);
+    EXPECT_TRUE(holds(page, ".SH \"EXIT STATUS\"")) << subcommand.name;
+    EXPECT_TRUE(holds(man_page(all.front(), all), replaced(man_page_name(subcommand), "-", "\\-"))) << subcommand.name;
+    for (const unsigned char c : page) EXPECT_LT(c, 128) << subcommand.name << " holds what not every terminal shows";
   }
 }
 
@@ -92,19 +92,22 @@ TEST(Help, CompletionHasEveryVerbAndFlag) {
   const auto all = describe();
   const std::string bash = completion_script("bash", all), zsh = completion_script("zsh", all),
                     fish = completion_script("fish", all);
-  every_flag("bash", [&](const Description& verb, const Flag& flag, const std::string& name) {
-    const std::string label = verb.name.empty() ? "''" : holds(verb.name, " ") ? "'" + verb.name + "'" : verb.name;
+  every_flag("bash", [&](const Description& subcommand, const Flag& flag, const std::string& name) {
+    const std::string label = subcommand.name.empty()       ? "''"
+                              : holds(subcommand.name, " ") ? "'" + subcommand.name + "'"
+                                                            : subcommand.name;
     const std::string part = part_of(bash, "    " + label + ")\n", ";;");
     return flag.positional() ? !part.empty() : holds(replaced(part, "'", " "), " " + name + " ");
   });
-  every_flag("zsh", [&](const Description& verb, const Flag& flag, const std::string& name) {
-    const std::string function = "_fastsplat" + (verb.name.empty() ? "" : "_" + replaced(verb.name, " ", "_"));
+  every_flag("zsh", [&](const Description& subcommand, const Flag& flag, const std::string& name) {
+    const std::string function =
+        "_fastsplat" + (subcommand.name.empty() ? "" : "_" + replaced(subcommand.name, " ", "_"));
     const std::string part = part_of(zsh, "\n" + function + "() {\n", "\n}\n");
     if (flag.positional()) return holds(part, ":" + name + ":");
     return holds(part, name + (!flag.takes_value() ? "[" : name.starts_with("--") ? "=[" : "+["));
   });
-  every_flag("fish", [&](const Description& verb, const Flag& flag, const std::string& name) {
-    const std::string at = "'__fastsplat_at" + (verb.name.empty() ? "" : " " + verb.name) + "' ";
+  every_flag("fish", [&](const Description& subcommand, const Flag& flag, const std::string& name) {
+    const std::string at = "'__fastsplat_at" + (subcommand.name.empty() ? "" : " " + subcommand.name) + "' ";
     if (flag.positional()) return holds(fish, at);
     std::istringstream lines(fish);
     for (std::string line; std::getline(lines, line);) {
@@ -114,10 +117,10 @@ TEST(Help, CompletionHasEveryVerbAndFlag) {
     }
     return false;
   });
-  for (const auto& verb : all_verbs()) {
-    const std::string last = std::string(verb.name).substr(std::string(verb.name).rfind(' ') + 1);
-    EXPECT_TRUE(holds(fish, " -a " + last + " -d ")) << verb.name;
-    EXPECT_TRUE(holds(zsh, "'" + last + ":")) << verb.name;
+  for (const auto& subcommand : all_subcommands()) {
+    const std::string last = std::string(subcommand.name).substr(std::string(subcommand.name).rfind(' ') + 1);
+    EXPECT_TRUE(holds(fish, " -a " + last + " -d ")) << subcommand.name;
+    EXPECT_TRUE(holds(zsh, "'" + last + ":")) << subcommand.name;
   }
 }
 
@@ -161,20 +164,20 @@ Words words_of(const std::string& command) {
 
 TEST(Help, BeginsWithExamplesThatParse) {
   int examples = 0, fewest = 1 << 20;
-  for (const Description& verb : describe()) {
-    if (verb.group) continue;
-    SCOPED_TRACE(verb.name);
-    const int count = static_cast<int>(verb.examples.size());
+  for (const Description& subcommand : describe()) {
+    if (subcommand.group) continue;
+    SCOPED_TRACE(subcommand.name);
+    const int count = static_cast<int>(subcommand.examples.size());
     fewest = std::min(fewest, count);
     EXPECT_GE(count, 2);
     EXPECT_LE(count, 3);
-    std::istringstream names(verb.name);
+    std::istringstream names(subcommand.name);
     const std::string help = help_on({std::istream_iterator<std::string>(names), {}});
-    EXPECT_TRUE(help.starts_with(verb.summary + "\n\nExamples:\n")) << help;
-    for (const Example& example : verb.examples) {
+    EXPECT_TRUE(help.starts_with(subcommand.summary + "\n\nExamples:\n")) << help;
+    for (const Example& example : subcommand.examples) {
       ++examples;
       EXPECT_TRUE(holds(help, "  # " + example.does + "\n  " + example.command + "\n"));
-      EXPECT_TRUE(example.command.starts_with("fastsplat " + verb.name));
+      EXPECT_TRUE(example.command.starts_with("fastsplat " + subcommand.name));
       const Words words = words_of(example.command);
       std::vector<const char*> all;
       for (const auto& word : words) all.push_back(word.c_str());

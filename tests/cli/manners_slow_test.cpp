@@ -108,18 +108,18 @@ TEST(Completion, BashOffersEveryVerbAndFlag) {
   const TempFolder folder;
   const auto all = cli::describe();
   Words lines;
-  for (const auto& verb : all) {
-    if (!verb.group) lines.push_back("fastsplat " + verb.name + " -");
+  for (const auto& subcommand : all) {
+    if (!subcommand.group) lines.push_back("fastsplat " + subcommand.name + " -");
   }
   auto replies = offered(lines, folder);
   int flags = 0;
-  for (const auto& verb : all) {
-    if (verb.group) continue;
-    for (const auto& flag : verb.flags) {
+  for (const auto& subcommand : all) {
+    if (subcommand.group) continue;
+    for (const auto& flag : subcommand.flags) {
       if (flag.positional()) continue;
       for (const auto& name : flag.names) {
         ++flags;
-        EXPECT_TRUE(replies["fastsplat " + verb.name + " -"].contains(name)) << verb.name << " " << name;
+        EXPECT_TRUE(replies["fastsplat " + subcommand.name + " -"].contains(name)) << subcommand.name << " " << name;
       }
     }
   }
@@ -216,8 +216,8 @@ TEST(Examples, AllRun) {
   fs::create_directory(folder.path() / "results");
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
   int ran = 0, slow = 0, skipped = 0;
-  for (const auto& verb : cli::describe()) {
-    for (const auto& example : verb.examples) {
+  for (const auto& subcommand : cli::describe()) {
+    for (const auto& example : subcommand.examples) {
       if (example.speed == cli::Example::Slow) {
         ++slow;  // Help.BeginsWithExamplesThatParse has it
         continue;

@@ -127,9 +127,9 @@ TEST_F(OwnInput, EveryVerbThatReadsFilesIsAmongThem) {
     tried.insert(danger.command[0]);
     tried.insert(danger.command[0] + " " + danger.command[1]);
   }
-  for (const auto& verb : cli::all_verbs()) {
-    const std::string name = verb.name;
-    if (verb.declare == nullptr || name == "doctor" || name == "config list" || name == "family" ||
+  for (const auto& subcommand : cli::all_subcommands()) {
+    const std::string name = subcommand.name;
+    if (subcommand.declare == nullptr || name == "doctor" || name == "config list" || name == "family" ||
         name == "completion" || name == "help")
       continue;  // these read none
     EXPECT_TRUE(tried.contains(name)) << name << " reads files: what does it do to them?";

@@ -12,11 +12,11 @@
 namespace fastsplat::cli {
 namespace {
 
-Action parsed(const std::vector<std::string>& words, const std::vector<Verb>& verbs = all_verbs()) {
+Action parsed(const std::vector<std::string>& words, const std::vector<Subcommand>& subcommands = all_subcommands()) {
   std::vector<const char*> all{"fastsplat"};
   for (const auto& word : words) all.push_back(word.c_str());
   all.push_back(nullptr);
-  return parse(static_cast<int>(all.size()) - 1, all.data(), verbs);
+  return parse(static_cast<int>(all.size()) - 1, all.data(), subcommands);
 }
 
 template <class Arguments>
@@ -31,8 +31,8 @@ ExitCode keep(const Arguments& arguments) {
 /// The arguments that `words` fill in.
 template <class Arguments, void (*declare)(Options&, Arguments&)>
 Arguments filled(const std::vector<std::string>& words) {
-  const std::vector<Verb> verbs{Verb{"verb", "", verb<Arguments, declare, keep<Arguments>>}};
-  EXPECT_EQ(parsed(words, verbs)(), ExitCode::Pass);
+  const std::vector<Subcommand> subcommands{Subcommand{"verb", "", subcommand<Arguments, declare, keep<Arguments>>}};
+  EXPECT_EQ(parsed(words, subcommands)(), ExitCode::Pass);
   return kept<Arguments>;
 }
 
@@ -314,15 +314,15 @@ TEST(Parse, EveryLimitOfCompareIsOne) {
 
 TEST(Parse, EveryVerbHasANameASummaryAndHelp) {
   int leaves = 0;
-  for (const Verb& verb : all_verbs()) {
-    SCOPED_TRACE(verb.name);
+  for (const Subcommand& subcommand : all_subcommands()) {
+    SCOPED_TRACE(subcommand.name);
     std::vector<std::string> words{"help"};
-    std::istringstream names(verb.name);
+    std::istringstream names(subcommand.name);
     for (std::string word; names >> word;) words.push_back(word);
     const auto text = printed(words);
-    EXPECT_NE(text.find(verb.summary), std::string::npos) << text;
-    const std::string name = verb.name;
-    if (verb.declare == nullptr || name == "help" || name == "completion") continue;  // these two have no result
+    EXPECT_NE(text.find(subcommand.summary), std::string::npos) << text;
+    const std::string name = subcommand.name;
+    if (subcommand.declare == nullptr || name == "help" || name == "completion") continue;  // these two have no result
     ++leaves;
     for (const char* flag : {"--json", "--quiet", "--threads"}) EXPECT_NE(text.find(flag), std::string::npos) << flag;
   }

@@ -57,14 +57,14 @@ TEST(Readme, DoorsReachEverySubcommand) {
   for (const char* page : {"docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",
                            "docs/guide/tutorial.md", "docs/guide.md"})
     doors += page_text(page);
-  int verbs = 0;
-  for (const Description& verb : describe()) {
-    if (verb.name.empty() || verb.group) continue;
-    EXPECT_NE(doors.find("fastsplat " + verb.name), doors.npos) << verb.name;
-    ++verbs;
+  int subcommands = 0;
+  for (const Description& subcommand : describe()) {
+    if (subcommand.name.empty() || subcommand.group) continue;
+    EXPECT_NE(doors.find("fastsplat " + subcommand.name), doors.npos) << subcommand.name;
+    ++subcommands;
   }
-  std::printf("[figure] subcommands_reached = %d (limit > 20)\n", verbs);
-  EXPECT_GT(verbs, 20);
+  std::printf("[figure] subcommands_reached = %d (limit > 20)\n", subcommands);
+  EXPECT_GT(subcommands, 20);
 }
 
 }  // namespace

@@ -24,14 +24,14 @@ TEST(Reference, PageIsWhatTheProgramPrints) {
 TEST(Reference, HasEverySubcommandAndFlag) {
   const auto all = describe();
   const std::string page = reference_page(all);
-  int verbs = 0, flags = 0;
-  for (const Description& verb : all) {
-    if (verb.name.empty() || verb.group) continue;
-    const auto from = page.find("\n## " + verb.name + "\n");
-    ASSERT_NE(from, page.npos) << verb.name;
+  int subcommands = 0, flags = 0;
+  for (const Description& subcommand : all) {
+    if (subcommand.name.empty() || subcommand.group) continue;
+    const auto from = page.find("\n## " + subcommand.name + "\n");
+    ASSERT_NE(from, page.npos) << subcommand.name;
     const std::string own = page.substr(from, page.find("\n## ", from + 1) - from);
-    ++verbs;
-    for (const Flag& flag : verb.flags) {
+    ++subcommands;
+    for (const Flag& flag : subcommand.flags) {
       // In its own table, or in a shared one that its section links to.
       const auto& name = flag.names.back();
       const auto in = [&](const std::string& text) {
@@ -42,12 +42,12 @@ TEST(Reference, HasEverySubcommandAndFlag) {
       const auto shared = page.find("\n## " + title + "\n");
       const bool linked = shared != page.npos && own.find("[" + title + "]") != own.npos &&
                           in(page.substr(shared, page.find("\n## ", shared + 1) - shared));
-      EXPECT_TRUE(in(own) || linked) << verb.name << " " << name;
+      EXPECT_TRUE(in(own) || linked) << subcommand.name << " " << name;
       ++flags;
     }
   }
-  std::printf("[figure] reference: subcommands = %d, flags = %d (limit > 300)\n", verbs, flags);
-  EXPECT_GT(verbs, 20);
+  std::printf("[figure] reference: subcommands = %d, flags = %d (limit > 300)\n", subcommands, flags);
+  EXPECT_GT(subcommands, 20);
   EXPECT_GT(flags, 300) << "nothing was checked";
 }
 

@@ -75,36 +75,36 @@ void expect_refusal(const Result& result, const Words& parts) {
     EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' is not in: " << result.err;
 }
 
-/// Verb and line, as ./run help lists them.
+/// Subcommand and line, as ./run help lists them.
 std::vector<std::pair<std::string, std::string>> listed(const Tree& tree) {
-  std::vector<std::pair<std::string, std::string>> verbs;
+  std::vector<std::pair<std::string, std::string>> subcommands;
   std::istringstream lines(tree.run({"help"}).out);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
-    std::string door, verb;
-    words >> door >> verb;
-    if (door == "./run") verbs.emplace_back(verb, line);
+    std::string door, subcommand;
+    words >> door >> subcommand;
+    if (door == "./run") subcommands.emplace_back(subcommand, line);
   }
-  return verbs;
+  return subcommands;
 }
 
 TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
   const Tree tree;
-  const auto verbs = listed(tree);
-  for (const auto& [verb, line] : verbs) {
-    SCOPED_TRACE(verb);
-    const auto result = tree.run({verb, "--help"});
+  const auto subcommands = listed(tree);
+  for (const auto& [subcommand, line] : subcommands) {
+    SCOPED_TRACE(subcommand);
+    const auto result = tree.run({subcommand, "--help"});
     expect_success(result);
     EXPECT_EQ(result.err, "");
     EXPECT_EQ(result.out.rfind(line + "\n", 0), 0U) << result.out;
-    if (verb == "help") continue;
+    if (subcommand == "help") continue;
     for (const char* part : {"usage:", "\n    writes: ", "\n    takes:  "})
       EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in " << result.out;
     EXPECT_EQ(result.out.find("\n./run "), std::string::npos) << "another verb's line in " << result.out;
   }
   tree.expect_untouched();
-  std::printf("[figure] commands of ./run with help = %zu (limit 5)\n", verbs.size());
-  EXPECT_EQ(verbs.size(), 5U);
+  std::printf("[figure] commands of ./run with help = %zu (limit 5)\n", subcommands.size());
+  EXPECT_EQ(subcommands.size(), 5U);
 }
 
 TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
@@ -130,7 +130,7 @@ TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
 TEST(RunVerbs, TheScriptHasThoseThatItLists) {
   const Tree tree;
   std::set<std::string> told, had;
-  for (const auto& [verb, line] : listed(tree)) told.insert(verb);
+  for (const auto& [subcommand, line] : listed(tree)) told.insert(subcommand);
   const std::string script = read_bytes(tree / "run");
   const std::string doors = script.substr(script.rfind("\ncase $verb in\n"));
   static const std::regex door(R"(\n  ([a-z]+)\))");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs that read streams and configurations, at what they cannot take: told with file and place, before what can
-// be told of the rest is lost.
+// The subcommands that read streams and configurations, at what they cannot take: told with file and place, before what
+// can be told of the rest is lost.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -121,7 +121,8 @@ TEST_F(StreamVerbs, VerifyNamesTheFile) {
   }
 }
 
-// A hole in the picture is one to every verb that reads a stream file (S-file-1); as tiles alone the device takes it.
+// A hole in the picture is one to every subcommand that reads a stream file (S-file-1); as tiles alone the device takes
+// it.
 TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
   const auto config = driver::load_config("tiny");
   std::vector<cmodel::Beat> beats;
@@ -133,14 +134,14 @@ TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
   beats = testbench::write_document(config, document);
   driver::write_beats(hole, beats);
   const auto place = hole + ": beat " + std::to_string(beats.size() - 1) + " (byte offset ";
-  for (const std::vector<std::string>& verb :
+  for (const std::vector<std::string>& subcommand :
        {std::vector<std::string>{"stream", "replay", hole, "-o", folder_ / "a.exr"},
         {"cycles", "--stream", hole},
         {"verify", "--stream", hole}}) {
-    auto words = verb;
+    auto words = subcommand;
     words.insert(words.end(), {"--config", "tiny"});
     const auto run = fastsplat(words);
-    EXPECT_EQ(run.code, 3) << verb[0];
+    EXPECT_EQ(run.code, 3) << subcommand[0];
     EXPECT_NE(run.err.find(place), std::string::npos) << run.err;
     EXPECT_NE(run.err.find("tiles do not cover the image"), std::string::npos) << run.err;
   }

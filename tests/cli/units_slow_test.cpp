@@ -93,10 +93,10 @@ TEST(Units, CyclesSaysWhatLayOnFrozenBlocks) {
   const auto odd = folder.write(
       "odd.nrrd",
       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\nspacings: 1 nan 2\n\n1 2 3 4 5 6 7 8\n");
-  for (const char* verb : {"cycles", "verify"}) {
-    const auto run = fastsplat({verb, "--volume", odd, "--size", "16", "--config", "tiny"});
+  for (const char* subcommand : {"cycles", "verify"}) {
+    const auto run = fastsplat({subcommand, "--volume", odd, "--size", "16", "--config", "tiny"});
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_NE(run.err.find("odd.nrrd: "), std::string::npos) << verb << ": " << run.err;
+    EXPECT_NE(run.err.find("odd.nrrd: "), std::string::npos) << subcommand << ": " << run.err;
   }
 }
 

@@ -186,9 +186,9 @@ TEST(Help, IsOnStdoutAndSucceeds) {
 
 TEST(Help, NamesEveryVerbAndTheExitCodes) {
   const auto text = fastsplat({"help"}).out;
-  for (const std::string verb :
+  for (const std::string subcommand :
        {"render", "compare", "volume", "stream", "cycles", "config", "doctor", "130 interrupted"}) {
-    EXPECT_NE(text.find(verb), std::string::npos) << verb;
+    EXPECT_NE(text.find(subcommand), std::string::npos) << subcommand;
   }
 }
 

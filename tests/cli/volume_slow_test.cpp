@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the verbs say about a volume that is odd, and --nan-as wherever volumes are read.
+// What the subcommands say about a volume that is odd, and --nan-as wherever volumes are read.
 #include <gtest/gtest.h>
 
 #include <cmath>

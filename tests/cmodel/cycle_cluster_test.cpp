@@ -19,13 +19,13 @@ namespace {
 using cmodel::Beat, cmodel::CycleCluster, cmodel::Opcode;
 using cmodel::StreamScope;
 
-/// Willing in one cycle of N, or in runs of N.
-struct OneOf final : cmodel::Willing {
+/// ReadyPattern in one cycle of N, or in runs of N.
+struct OneOf final : cmodel::ReadyPattern {
   std::uint64_t n;
   explicit OneOf(std::uint64_t number) : n(number) {}
   std::uint64_t next(std::uint64_t cycle) const override { return (cycle + n - 1) / n * n; }
 };
-struct Runs final : cmodel::Willing {
+struct Runs final : cmodel::ReadyPattern {
   std::uint64_t n;
   explicit Runs(std::uint64_t number) : n(number) {}
   std::uint64_t next(std::uint64_t cycle) const override { return cycle / n % 2 == 0 ? cycle : (cycle / n + 1) * n; }
@@ -103,11 +103,11 @@ TEST_P(ClusterOf, OneDeviceIsTheCycleModel) {
   const Runs runs(7);
   for (int i = 0; i < 4; ++i) {
     const Pieces pieces = random_pieces(config(), random, 300);
-    for (const cmodel::Willing* input :
-         {static_cast<const cmodel::Willing*>(nullptr), static_cast<const cmodel::Willing*>(&third),
-          static_cast<const cmodel::Willing*>(&runs)}) {
-      for (const cmodel::Willing* output :
-           {static_cast<const cmodel::Willing*>(nullptr), static_cast<const cmodel::Willing*>(&runs)}) {
+    for (const cmodel::ReadyPattern* input :
+         {static_cast<const cmodel::ReadyPattern*>(nullptr), static_cast<const cmodel::ReadyPattern*>(&third),
+          static_cast<const cmodel::ReadyPattern*>(&runs)}) {
+      for (const cmodel::ReadyPattern* output :
+           {static_cast<const cmodel::ReadyPattern*>(nullptr), static_cast<const cmodel::ReadyPattern*>(&runs)}) {
         const cmodel::CycleOptions options{.input = input, .output = output};
         const auto cluster = run(config(), pieces, {.device = options});
         cmodel::CycleModel model(config(), StreamScope::Whole, options);

@@ -101,14 +101,14 @@ TEST(DensityErrors, SegmentsOfTheTransferFunctionMendIt) {
   const cmodel::Config config = with_densities("fine", 3);
   const Chain chain(scene, config);
   const Attribution a = attribute(chain, {.quick = true, .threads = 1});
-  const auto tried = try_remedy(scene, config, a, 1);
+  const auto tried = try_suggestion(scene, config, a, 1);
   ASSERT_TRUE(tried);
   std::printf("[figure] 8 segments: transfer %.1f %% of RMS %.3f LSB8; %s: RMS %.3f\n",
-              100.0 * step(a, "transfer").share, a.total.rms * lsb_per_unit(8), tried->remedy.changes.c_str(),
+              100.0 * step(a, "transfer").share, a.total.rms * lsb_per_unit(8), tried->suggestion.changes.c_str(),
               tried->error.rms * lsb_per_unit(8));
   EXPECT_GT(step(a, "transfer").share, 0.8);
   EXPECT_EQ(tried->step, "transfer");
-  EXPECT_EQ(tried->remedy.changes, "classify.segment_bits 3 -> 5");
+  EXPECT_EQ(tried->suggestion.changes, "classify.segment_bits 3 -> 5");
   EXPECT_LT(tried->error.rms, 0.5 * a.total.rms);
 }
 

@@ -64,13 +64,14 @@ Lines csv_lines(const std::string& text) {
   return lines;
 }
 
-TEST(Faces, HelperHasEveryVerbThatIsReported) {
-  std::set<std::string> verbs;
-  for (const Result& result : all_kinds()) verbs.insert(result.verb);
-  for (const auto& verb : reported_verbs()) EXPECT_TRUE(verbs.contains(verb)) << verb << " has no face here";
+TEST(OutputFormats, HelperHasEveryVerbThatIsReported) {
+  std::set<std::string> subcommands;
+  for (const Result& result : all_kinds()) subcommands.insert(result.subcommand);
+  for (const auto& subcommand : reported_subcommands())
+    EXPECT_TRUE(subcommands.contains(subcommand)) << subcommand << " has no face here";
 }
 
-TEST(Faces, JunitHasACasePerGate) {
+TEST(OutputFormats, JunitHasACasePerGate) {
   const std::string xml = to_junit(all_kinds());
   std::size_t gates = 0, failures = 0, errors = 0;
   for (const Result& result : all_kinds()) {
@@ -91,7 +92,7 @@ TEST(Faces, JunitHasACasePerGate) {
       << xml;
 }
 
-TEST(Faces, JunitTellsWhyAndHowToSeeItAgain) {
+TEST(OutputFormats, JunitTellsWhyAndHowToSeeItAgain) {
   const std::string compare = to_junit({kind("compare")});
   EXPECT_TRUE(holds(compare, "message=\"min_psnr_db is 51.4384, required is at least 60\"")) << compare;
   EXPECT_TRUE(holds(compare, "&#10;reproduce: fastsplat compare a.exr 'b c.exr' --max-lsb 1</failure>")) << compare;
@@ -109,7 +110,7 @@ TEST(Faces, JunitTellsWhyAndHowToSeeItAgain) {
 }
 
 // A build server shows its cases one by one: none of them may look like a defect of the device.
-TEST(Faces, JunitSaysOfEveryFailingCaseThatItsFaultWasPlanted) {
+TEST(OutputFormats, JunitSaysOfEveryFailingCaseThatItsFaultWasPlanted) {
   Result planted = kind("verify");
   planted.json["planted_fault"] = {{"name", "PORT_SNAP"}, {"where", "ports"}, {"meaning", "centres"}};
   std::size_t failing = 0, told = 0;
@@ -122,13 +123,13 @@ TEST(Faces, JunitSaysOfEveryFailingCaseThatItsFaultWasPlanted) {
   EXPECT_EQ(told, failing);
 }
 
-TEST(Faces, JunitIsWhatBuildServersRead) {
+TEST(OutputFormats, JunitIsWhatBuildServersRead) {
   if (std::system("command -v xmllint > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "xmllint (libxml2-utils) is not installed";
   auto results = all_kinds();
   Json odd = results.front().json;
   odd["limits"][0]["name"] = "ctl \x01 & <tag> \"quoted\" \xEF\xBF\xBF \xC3\xA4";
-  results.push_back({.file = "odd <&>.json", .verb = "compare", .json = odd});
+  results.push_back({.file = "odd <&>.json", .subcommand = "compare", .json = odd});
   const std::string file = ::testing::TempDir() + "fastsplat-faces-junit-" + std::to_string(::getpid()) + ".xml";
   std::ofstream(file, std::ios::binary) << to_junit(results);
   const auto lint = [&] {
@@ -146,7 +147,7 @@ TEST(Faces, JunitIsWhatBuildServersRead) {
   std::remove((file + ".log").c_str());
 }
 
-TEST(Faces, AResultThatFailsWithoutAGateThatDoesFails) {
+TEST(OutputFormats, AResultThatFailsWithoutAGateThatDoesFails) {
   Result result = kind("errors bound");
   result.json["holds"] = false;  // and yet no value is over it
   const auto gates = gates_of(result);
@@ -154,7 +155,7 @@ TEST(Faces, AResultThatFailsWithoutAGateThatDoesFails) {
   EXPECT_EQ(gates[1].status, Status::Fail);
 }
 
-TEST(Faces, SumsThatDoNotAddUpFail) {
+TEST(OutputFormats, SumsThatDoNotAddUpFail) {
   const auto failed = [](const Result& result) {
     int number = 0;
     for (const Gate& gate : gates_of(result)) number += gate.status == Status::Fail ? 1 : 0;
@@ -172,10 +173,10 @@ TEST(Faces, SumsThatDoNotAddUpFail) {
   EXPECT_EQ(failed(cycles), 1);
 }
 
-TEST(Faces, CsvIsTheRowsOfTheResult) {
+TEST(OutputFormats, CsvIsTheRowsOfTheResult) {
   std::size_t cells = 0;
   for (const Result& result : all_kinds()) {
-    SCOPED_TRACE(result.verb);
+    SCOPED_TRACE(result.subcommand);
     const Table table = table_of(result);
     const Lines lines = csv_lines(to_csv({result}));
     ASSERT_EQ(lines.size(), table.rows.size() + 1);
@@ -200,7 +201,7 @@ TEST(Faces, CsvIsTheRowsOfTheResult) {
   EXPECT_GT(cells, 100u);
 }
 
-TEST(Faces, CsvOfAPlan) {
+TEST(OutputFormats, CsvOfAPlan) {
   EXPECT_EQ(
       to_csv({kind("plan")}),
       "id,kind,status,axes.lanes,axes.method,metrics.psnr_db,config_hash,command,message\r\n"
@@ -209,7 +210,7 @@ TEST(Faces, CsvOfAPlan) {
       "c3,verify,error,,,,c3,fastsplat verify --random 9,\"timeout\nafter 5 s\"\r\n");
 }
 
-TEST(Faces, ClosureIsAGatePerTestpointThatWasLookedAt) {
+TEST(OutputFormats, ClosureIsAGatePerTestpointThatWasLookedAt) {
   const std::string xml = to_junit({kind("closure")});
   EXPECT_TRUE(holds(xml, "name=\"hazards\"")) << xml;
   EXPECT_TRUE(holds(xml, "open: 2 of 3 bins hit, 0 tests")) << xml;
@@ -219,7 +220,7 @@ TEST(Faces, ClosureIsAGatePerTestpointThatWasLookedAt) {
             "testpoint,configuration,hit,bins,fewest_hits\r\nhazards,tiny,1,2,0\r\nhazards,base,1,1,5\r\n");
 }
 
-TEST(Faces, CsvOfSeveralResultsSaysWhichARowIsOf) {
+TEST(OutputFormats, CsvOfSeveralResultsSaysWhichARowIsOf) {
   const Lines lines = csv_lines(to_csv({kind("cycles"), kind("family")}));
   ASSERT_EQ(lines.size(), 1u + 4 + 2);
   EXPECT_EQ(lines[0], (std::vector<std::string>{"result", "verb", "cycles", "count", "share", "kind", "grid",
@@ -230,7 +231,7 @@ TEST(Faces, CsvOfSeveralResultsSaysWhichARowIsOf) {
   EXPECT_EQ(lines[5][2], "");
 }
 
-TEST(Faces, MarkdownHasVerdictGatesAndTable) {
+TEST(OutputFormats, MarkdownHasVerdictGatesAndTable) {
   const std::string text = to_markdown(all_kinds());
   EXPECT_EQ(count("\n" + text, "\n### "), all_kinds().size());
   EXPECT_TRUE(holds(text, "### compare `result-0.json`: **fail**\n")) << text;
@@ -254,7 +255,7 @@ TEST(Faces, MarkdownHasVerdictGatesAndTable) {
   EXPECT_GT(rows, 30u);
 }
 
-TEST(Faces, MarkdownCutsLongTablesAndSaysSo) {
+TEST(OutputFormats, MarkdownCutsLongTablesAndSaysSo) {
   Result plan = kind("plan");
   const Json row = plan.json["rows"][0];
   for (int more = 0; more < 2000; ++more) plan.json["rows"].push_back(row);
@@ -266,7 +267,7 @@ TEST(Faces, MarkdownCutsLongTablesAndSaysSo) {
 }
 
 // Whatever is taken from a result or put in its place, the faces are made or one line says what is wrong.
-TEST(Faces, ADamagedResultIsOneLine) {
+TEST(OutputFormats, ADamagedResultIsOneLine) {
   int refused = 0, made = 0;
   const auto try_it = [&](const Result& result) {
     for (const auto& face : {to_junit, to_csv, to_markdown}) {
@@ -282,7 +283,7 @@ TEST(Faces, ADamagedResultIsOneLine) {
     }
   };
   for (const Result& whole : all_kinds()) {
-    SCOPED_TRACE(whole.verb);
+    SCOPED_TRACE(whole.subcommand);
     const Json flat = whole.json.flatten();
     for (const auto& [place, unused] : flat.items()) {
       if (place == "/verb") continue;

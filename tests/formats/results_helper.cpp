@@ -84,8 +84,8 @@ const char* const kVerify =
 
 Result result_from(const std::string& file, const std::string& text) {
   Json json = Json::parse(text);
-  const std::string verb = json.at("verb");
-  return {.file = file, .verb = verb, .json = std::move(json)};
+  const std::string subcommand = json.at("verb");
+  return {.file = file, .subcommand = subcommand, .json = std::move(json)};
 }
 
 std::vector<Result> all_kinds() {
@@ -96,11 +96,11 @@ std::vector<Result> all_kinds() {
   return results;
 }
 
-Result kind(const std::string& verb) {
+Result kind(const std::string& subcommand) {
   for (const Result& result : all_kinds()) {
-    if (result.verb == verb) return result;
+    if (result.subcommand == subcommand) return result;
   }
-  throw std::out_of_range(verb);
+  throw std::out_of_range(subcommand);
 }
 
 }  // namespace fastsplat::report

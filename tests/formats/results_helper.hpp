@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results as verbs write them, small, and of every kind.
+// Results as subcommands write them, small, and of every kind.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace fastsplat::report {
 /// `text` is the result's JSON.
 Result result_from(const std::string& file, const std::string& text);
 
-/// One of every verb that is reported, in the order of their names: some pass, some fail.
+/// One of every subcommand that is reported, in the order of their names: some pass, some fail.
 std::vector<Result> all_kinds();
-/// `verb` among them.
-Result kind(const std::string& verb);
+/// `subcommand` among them.
+Result kind(const std::string& subcommand);
 
 }  // namespace fastsplat::report

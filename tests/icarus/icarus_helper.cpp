@@ -118,7 +118,7 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
 
 Transcript Icarus::play(const Played& played) const {
   {
-    std::ofstream beats(folder_ / "beats"), willing(folder_ / "willing"), plays(folder_ / "plays");
+    std::ofstream beats(folder_ / "beats"), ready(folder_ / "willing"), plays(folder_ / "plays");
     beats << std::hex;
     for (const auto& beat : played.beats) {
       for (std::size_t word = beat.size(); word-- > 0;) {
@@ -129,7 +129,7 @@ Transcript Icarus::play(const Played& played) const {
       beats << "\n";
     }
     for (const auto& pattern : played.patterns)
-      for (std::uint64_t cycle = 0; cycle < kPatternCycles; ++cycle) willing << (pattern.at(cycle) ? "1\n" : "0\n");
+      for (std::uint64_t cycle = 0; cycle < kPatternCycles; ++cycle) ready << (pattern.at(cycle) ? "1\n" : "0\n");
     for (const auto& play : played.plays)
       plays << play.reset << " " << play.beats << " " << play.linger << " " << play.input << " " << play.ready << "\n";
   }

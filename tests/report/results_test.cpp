@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results told apart: each verb's sentence, and one line for what is no result.
+// Results told apart: each subcommand's sentence, and one line for what is no result.
 #include "report/results.hpp"
 
 #include <gtest/gtest.h>
@@ -146,9 +146,10 @@ TEST_F(Results, DamageIsNamed) {
   damaged = kCompare;
   damaged["limits"] = Json::array({7});
   expect_refused(damaged.dump(), {"damaged result of `compare`"});
-  for (const auto& verb : reported_verbs()) expect_refused(Json{{"verb", verb}}.dump(), {"damaged result of `" + verb});
-  std::printf("[figure] verbs with a report = %zu (limit >= 14)\n", reported_verbs().size());
-  EXPECT_GE(reported_verbs().size(), 14u);
+  for (const auto& subcommand : reported_subcommands())
+    expect_refused(Json{{"verb", subcommand}}.dump(), {"damaged result of `" + subcommand});
+  std::printf("[figure] verbs with a report = %zu (limit >= 14)\n", reported_subcommands().size());
+  EXPECT_GE(reported_subcommands().size(), 14u);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST_F(Submit, GnuParallelRunsTheCommandListToTheSameBytes) {
   const std::string here = plan_.run_here("here");
   plan_.copy_without("here", "there", 1, 3);
   plan_.succeed({"plan", "submit", "plan.json", "--engine", "script", "--results", "there", "--shards", "3"});
-  // What the verb says of itself, in a shell elsewhere; a task with a failed case counts as one for GNU parallel.
+  // What the subcommand says of itself, in a shell elsewhere; a task with a failed case counts as one for GNU parallel.
   cli_test::Surroundings elsewhere;
   elsewhere.folder = "/";
   elsewhere.environment = {"HOME=" + folder_.path().string()};

@@ -43,8 +43,8 @@ std::vector<std::pair<std::string, std::string>> results_in(const fs::path& fold
 }
 
 plan::Vocabulary vocabulary() {
-  return {.flags_of = [](const std::string& verb) -> std::vector<std::string> {
-            if (verb == "compare") return {"--json", "--min-psnr"};
+  return {.flags_of = [](const std::string& subcommand) -> std::vector<std::string> {
+            if (subcommand == "compare") return {"--json", "--min-psnr"};
             return {"--json", "--n", "--bad", "--config", "--set", "--volume"};
           },
           .check = [](const plan::Words&) {},

@@ -29,8 +29,8 @@ std::string read(const std::filesystem::path& path);
 /// Names and bytes of the results in a folder: ID.json.
 std::vector<std::pair<std::string, std::string>> results_in(const std::filesystem::path& folder);
 
-/// Verbs "cycles" and "verify" with --n, --bad and, for the configuration, --config and --set; "render" and "compare"
-/// as the kind compare has them. A configuration's hash is its words.
+/// Subcommands "cycles" and "verify" with --n, --bad and, for the configuration, --config and --set; "render" and
+/// "compare" as the kind compare has them. A configuration's hash is its words.
 plan::Vocabulary vocabulary();
 
 /// A script that is such a program: its JSON holds "n" and the time; --n 13 is a limit that is broken, --n 99 refused,

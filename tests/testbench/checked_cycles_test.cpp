@@ -88,7 +88,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
   EXPECT_FALSE(result.check.cycles_model);
 }
 
-// A sink that is willing now and then takes a picture in a hundred times what a device may stand still.
+// A sink that is ready now and then takes a picture in a hundred times what a device may stand still.
 TEST(CheckedCycles, ASlowSinkIsNoHang) {
   VerifyOptions options = tiny();
   options.ready = "every-100";

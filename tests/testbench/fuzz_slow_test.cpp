@@ -147,7 +147,7 @@ TEST_P(Fuzz, StreamFiles) {
     for (std::int64_t i = random.between(0, 7); i > 4; --i) mutate_bytes(bytes, random);
     if (random.once_in(2)) mutate_bytes(bytes, random);
     write(bytes);
-    // The reader of each verb; what one of them takes, all take.
+    // The reader of each subcommand; what one of them takes, all take.
     const bool replayed = taken(number, [&] { driver::replay_stream(path_, config); });
     const bool counted = taken(number, [&] {
       cmodel::CycleModel model(config, cmodel::StreamScope::Whole, {});

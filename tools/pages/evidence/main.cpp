@@ -134,8 +134,8 @@ Json figures(const Json& report) {
 }
 
 int run(const std::vector<std::string>& words) {
-  const auto is = [&](const char* verb, std::size_t least) {
-    return !words.empty() && words[0] == verb && words.size() > least;
+  const auto is = [&](const char* subcommand, std::size_t least) {
+    return !words.empty() && words[0] == subcommand && words.size() > least;
   };
   if (is("synthesis", 3)) {
     Json all = std::filesystem::exists(words[1]) ? read_json(words[1]) : Json::array();

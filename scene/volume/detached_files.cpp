@@ -88,6 +88,35 @@ std::optional<std::vector<std::string>> names_of_pattern(const TextHeader& heade
   return names;
 }
 
+/// How many files the field must name for the sizes; 0: any number that divides the last one.
+std::uint64_t pieces(const TextHeader& header, const TextHeader::Field& field,
+                     const std::vector<std::uint64_t>& sizes) {
+  const std::vector<std::string> words = words_of(field.value);
+  std::size_t axes = sizes.size() - 1;
+  if (words.size() == 2 || words.size() == 5) {
+    const std::string& number = words.back();  // MetaIO writes "LIST 2D"
+    axes = header.count(field, number.substr(0, number.find_first_of("dD")));
+    if (axes < 1 || axes > sizes.size()) {
+      header.refuse(field.line, "the data files have an invalid dimension", fmt::format("1 to {}", sizes.size()),
+                    words.back().substr(0, 40), "correct the header");
+    }
+  }
+  if (axes == sizes.size()) return 0;
+  std::uint64_t count = 1;
+  for (std::size_t a = axes; a < sizes.size(); ++a) count *= sizes[a];
+  return count;
+}
+
+void check_count(const TextHeader& header, const TextHeader::Field& field, const std::vector<std::uint64_t>& sizes,
+                 std::size_t files) {
+  if (files == 1) return;  // all of it
+  const std::uint64_t count = pieces(header, field, sizes);
+  if (count == 0 ? sizes.back() % files == 0 : count == files) return;
+  header.refuse(field.line, "the number of data files does not match the sizes",
+                count == 0 ? fmt::format("a divisor of {}", sizes.back()) : fmt::format("{} files", count),
+                fmt::format("{}", files), "name each file once, or correct the sizes");
+}
+
 }  // namespace
 
 bool says_list(const std::string& value) {
@@ -95,7 +124,8 @@ bool says_list(const std::string& value) {
   return (words.size() == 1 || words.size() == 2) && lower_case(words[0]) == "list";
 }
 
-std::vector<fs::path> detached_files(const TextHeader& header, const TextHeader::Field& field) {
+std::vector<fs::path> detached_files(const TextHeader& header, const TextHeader::Field& field,
+                                     const std::vector<std::uint64_t>& sizes) {
   std::vector<std::string> names{field.value};
   int line = field.line;
   int lines_each = 0;
@@ -111,6 +141,7 @@ std::vector<fs::path> detached_files(const TextHeader& header, const TextHeader:
   } else if (auto numbered = names_of_pattern(header, field.line, field.value)) {
     names = std::move(*numbered);
   }
+  check_count(header, field, sizes, names.size());
   std::vector<fs::path> files;
   for (const auto& name : names) files.push_back(file_beside(header, line += lines_each, name));
   return files;

@@ -25,8 +25,10 @@ struct Format {
   const char* way;
 };
 
-constexpr std::array<Format, 8> kFormats{
-    {{128, "DICM", "DICOM", "convert the series to one file with dcm2niix -z y FOLDER"},
+constexpr std::array<Format, 10> kFormats{
+    {{0, "ply\n", "PLY: Gaussians or a mesh", "give 3-D Gaussians with --gaussians"},
+     {0, "ply\r\n", "PLY: Gaussians or a mesh", "give 3-D Gaussians with --gaussians"},
+     {128, "DICM", "DICOM", "convert the series to one file with dcm2niix -z y FOLDER"},
      {0, "\x89HDF", "HDF5 or MINC 2", "convert it to .nii.gz, for MINC with mnc2nii"},
      {0, "CDF\x01", "MINC 1", "convert it with mnc2nii"},
      {208, "MAP ", "MRC or CCP4", "convert it to .nrrd or .nii.gz"},
@@ -74,6 +76,8 @@ std::string way_to_read(const fs::path& path) {
   if (const Format* format = format_of(path)) return format->way;
   const RawName raw = raw_name(path);
   const std::string ending = ending_of(path);
+  if (ending == ".img" || path.string().ends_with(".img.gz"))
+    return "the voxels of a NIfTI pair need their header: put the .hdr beside it";
   if (!raw.sized && ending != ".raw" && ending != ".bin" && ending != ".dat" && ending != ".vol")
     return "convert it, for example to .nrrd (teem-unu) or .nii.gz";
   std::vector<std::string> lines{"NRRD0004",      "type: " + raw.type,

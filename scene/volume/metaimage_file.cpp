@@ -81,8 +81,14 @@ std::optional<std::pair<std::string, std::string>> assignment(const std::string&
 /// Refuses a field that nearly matches one of MetaIO's as misspelt; other names are free.
 void refuse_misspelt(const TextHeader& header, int line, const std::string& name) {
   if (is_known(name)) return;
-  const auto meant = std::find_if(kFields.begin(), kFields.end(), [&name](const std::string& known) {
-    return lower_case(name) == lower_case(known) || (known.size() > 5 && may_mean(name, known));
+  // Of one of these the beginning is left out: "Spacing". Programs add fields such as Size of their own.
+  const auto without_element = [&name](const std::string& known) {
+    constexpr std::size_t kShortest = 7;
+    return name.size() >= kShortest && known != "ElementDirection" && lower_case("Element" + name) == lower_case(known);
+  };
+  const auto meant = std::find_if(kFields.begin(), kFields.end(), [&](const std::string& known) {
+    return lower_case(name) == lower_case(known) || without_element(known) ||
+           (known.size() > 5 && may_mean(name, known));
   });
   if (meant == kFields.end()) return;
   header.refuse(line, fmt::format("unknown field '{}'", name.substr(0, 40)), {}, {},
@@ -117,8 +123,20 @@ TextHeader split_header(const fs::path& path) {
   return header;
 }
 
+/// The field by the first of its names that exists, else nullptr. All that exist must say the same.
+const Field* agreed(const TextHeader& header, std::initializer_list<const char*> names) {
+  const Field* const first = header.find(names);
+  for (const char* name : names) {
+    const Field* const field = header.find({name});
+    if (field == nullptr || words_of(field->value) == words_of(first->value)) continue;
+    header.refuse(field->line, fmt::format("'{}' contradicts line {}", name, first->line), first->value.substr(0, 80),
+                  field->value.substr(0, 80), "remove the wrong line");
+  }
+  return first;
+}
+
 bool flag_from(const TextHeader& header, std::initializer_list<const char*> names, bool otherwise) {
-  const Field* field = header.find(names);
+  const Field* field = agreed(header, names);
   if (field == nullptr) return otherwise;
   const char first = field->value.empty() ? ' ' : field->value[0];  // MetaIO reads only this character
   if (first == 'T' || first == 't' || first == '1') return true;
@@ -213,8 +231,8 @@ void read_spacing(const TextHeader& header, std::size_t dimensions, double mm, V
 
 /// nullopt if the header has none of the fields.
 std::optional<Placement> placement_of(const TextHeader& header, std::size_t dimensions, double mm) {
-  const Field* matrix = header.find({"TransformMatrix", "Rotation", "Orientation"});
-  const Field* origin = header.find({"Offset", "Position", "Origin"});
+  const Field* matrix = agreed(header, {"TransformMatrix", "Rotation", "Orientation"});
+  const Field* origin = agreed(header, {"ImagePosition", "Offset", "Position", "Origin"});
   if (matrix == nullptr && origin == nullptr) return std::nullopt;
   const glm::dvec3 ras(-1, -1, 1);
   Placement placement{.direction = {glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)}};
@@ -237,8 +255,13 @@ std::optional<Placement> placement_of(const TextHeader& header, std::size_t dime
   return placement;
 }
 
-/// ITK places a volume by its matrix alone. Adds a remark if the header declares the orientation only in letters.
+/// ITK places a volume by its matrix alone. Adds a remark for each field of another kind, as for an orientation that is
+/// declared only in letters.
 void note_orientation(const TextHeader& header, std::vector<std::string>& remarks) {
+  for (const char* name : {"ElementOrigin", "ElementDirection"}) {
+    if (const Field* field = header.find({name}))
+      remarks.push_back(fmt::format("the header's {} {} is not applied", name, field->value.substr(0, 80)));
+  }
   const Field* letters = header.find({"AnatomicalOrientation"});
   if (letters == nullptr || header.find({"TransformMatrix", "Rotation", "Orientation"}) != nullptr) return;
   if (letters->value.find('?') != std::string::npos || letters->value == "RAI") return;
@@ -246,8 +269,11 @@ void note_orientation(const TextHeader& header, std::vector<std::string>& remark
                                 letters->value.substr(0, 20)));
 }
 
-/// HeaderSize: bytes before the voxels in a separate file; -1: the voxels are the end of the file.
+/// HeaderSize: bytes of the file before the voxels; -1: the voxels are the end of the file.
 void skip_header(DataFile& file, const TextHeader& header, const VoxelSource& source) {
+  if (const Field* slices = header.find({"HeaderSizePerSlice"}); slices != nullptr && slices->value != "0")
+    header.refuse(slices->line, "HeaderSizePerSlice is not supported", "0", slices->value.substr(0, 40),
+                  "remove the slices' headers from the data, and the line");
   const Field* field = header.find({"HeaderSize"});
   if (field == nullptr || field->value == "0") return;
   if (source.packing != Packing::Plain) {
@@ -260,7 +286,12 @@ void skip_header(DataFile& file, const TextHeader& header, const VoxelSource& so
   for (const std::uint64_t extent : source.extents) need *= std::min<std::uint64_t>(extent, 65536);
   need /= source.files.size();
   const bool at_end = field->value == "-1";
+  const std::uint64_t header_end = file.file_offset;
   file.file_offset = at_end ? size - std::min(size, need) : header.count(*field, field->value);
+  if (file.file_offset < header_end) {
+    header.refuse(field->line, "the voxels would begin inside the header", fmt::format("at least {}", header_end),
+                  fmt::format("{}", file.file_offset), "leave the line out, or copy the file again");
+  }
   if (file.file_offset > size || (at_end && need > size)) {
     header.refuse(field->line, "the header declares more than the file holds", fmt::format("{} bytes", need),
                   fmt::format("{} bytes", size), "download or copy the file again");
@@ -303,9 +334,9 @@ VoxelSource read_metaimage_header(const fs::path& path) {
   if (lower_case(data.value) == "local") {
     source.files = {{.path = path, .file_offset = header.end}};
   } else {
-    for (auto& file : detached_files(header, data)) source.files.push_back({.path = std::move(file)});
-    for (DataFile& file : source.files) skip_header(file, header, source);
+    for (auto& file : detached_files(header, data, extents)) source.files.push_back({.path = std::move(file)});
   }
+  for (DataFile& file : source.files) skip_header(file, header, source);
   return source;
 }
 

@@ -48,6 +48,12 @@ T field_at(const RawHeader& header, std::size_t offset) {
   return std::bit_cast<T>(bytes);
 }
 
+/// Number `index` of several that lie one after another in the header.
+double number_at(const RawHeader& header, std::size_t offset_one, std::size_t offset_two, std::size_t index = 0) {
+  return header.version == Version::One ? static_cast<double>(field_at<float>(header, offset_one + 4 * index))
+                                        : field_at<double>(header, offset_two + 8 * index);
+}
+
 RawHeader read_raw(const fs::path& path) {
   RawHeader header;
   header.bytes.resize(sizeof(nifti_2_header));
@@ -96,9 +102,7 @@ Checked check(const fs::path& path, const RawHeader& header) {
                          : field_at<std::int64_t>(header, offsetof(nifti_2_header, dim) + 8 * i);
   }
   for (std::size_t a = 0; a < 3; ++a) {
-    checked.pixdim[a] =
-        one ? static_cast<double>(field_at<float>(header, offsetof(nifti_1_header, pixdim) + 4 * (a + 1)))
-            : field_at<double>(header, offsetof(nifti_2_header, pixdim) + 8 * (a + 1));
+    checked.pixdim[a] = number_at(header, offsetof(nifti_1_header, pixdim), offsetof(nifti_2_header, pixdim), a + 1);
   }
   checked.datatype =
       field_at<std::int16_t>(header, one ? offsetof(nifti_1_header, datatype) : offsetof(nifti_2_header, datatype));
@@ -177,10 +181,26 @@ ImagePointer interpret(const fs::path& path, const RawHeader& header) {
   return {image, &nifti_image_free};
 }
 
-double mm_of_units(int units) {
+double mm_of_units(int units, std::vector<std::string>& remarks) {
   if (units == NIFTI_UNITS_METER) return 1000.0;
   if (units == NIFTI_UNITS_MICRON) return 0.001;
+  if (units != NIFTI_UNITS_UNKNOWN && units != NIFTI_UNITS_MM)
+    remarks.push_back(fmt::format("the header's unit of length, code {}, is unknown: mm is used", units));
   return 1.0;
+}
+
+/// Whether the qform's rotation and offset are numbers, and the rotation is one; libnifti2 makes others 0.
+bool usable_qform(const RawHeader& header) {
+  constexpr double kMostSquare = 1.001;  // the rotation's scalar part is what is left to 1
+  double square = 0.0;
+  bool finite = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double part = number_at(header, offsetof(nifti_1_header, quatern_b), offsetof(nifti_2_header, quatern_b), i);
+    square += part * part;
+    finite = finite && std::isfinite(number_at(header, offsetof(nifti_1_header, qoffset_x),
+                                               offsetof(nifti_2_header, qoffset_x), i));
+  }
+  return finite && square <= kMostSquare;
 }
 
 std::optional<Placement> placement_by(const nifti_dmat44& matrix, double mm) {
@@ -197,23 +217,25 @@ std::optional<Placement> placement_by(const nifti_dmat44& matrix, double mm) {
 }
 
 /// Placement by the header's sform, else its qform; nullopt if neither is usable.
-std::optional<Placement> placement_of(const nifti_image& image, double mm, std::vector<std::string>& remarks) {
+std::optional<Placement> placement_of(const nifti_image& image, bool usable_qform, double mm,
+                                      std::vector<std::string>& remarks) {
   std::string unusable;
   for (const auto& [name, code, matrix] :
        {std::tuple{"sform", image.sform_code, &image.sto_xyz}, {"qform", image.qform_code, &image.qto_xyz}}) {
     if (code <= 0) continue;
     auto placement = placement_by(*matrix, mm);
-    if (!placement) {
+    if (!placement || (matrix == &image.qto_xyz && !usable_qform)) {
       unusable += fmt::format("{}{}", unusable.empty() ? "" : " and ", name);
       continue;
     }
     if (!unusable.empty())
-      remarks.push_back(fmt::format("the axes of the header's {} are not independent: its {} is used", unusable, name));
+      remarks.push_back(fmt::format(
+          "the header's {} needs three independent axes and a finite origin: its {} is used instead", unusable, name));
     return placement;
   }
   if (!unusable.empty()) {
-    remarks.push_back(
-        fmt::format("the axes of the header's {} are not independent: axes are drawn as stored", unusable));
+    remarks.push_back(fmt::format(
+        "the header's {} needs three independent axes and a finite origin: axes are drawn as stored", unusable));
   }
   return std::nullopt;
 }
@@ -257,16 +279,18 @@ VoxelSource read_nifti_header(const fs::path& path) {
   source.files = {std::move(file)};
   const bool little = (std::endian::native == std::endian::little) != header.swapped;
   source.order = little ? std::endian::little : std::endian::big;
-  const double mm = mm_of_units(image->xyz_units);
+  const double mm = mm_of_units(image->xyz_units, source.remarks);
   for (std::size_t a = 0; a < 3; ++a) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
     source.spacing[a] = usable_length(checked.pixdim[a]) * mm;
   }
-  if (image->scl_slope != 0.0) {  // 0 means unscaled
-    source.slope = image->scl_slope;
-    source.intercept = image->scl_inter;
+  // From the header itself: libnifti2 makes what is not finite 0.
+  const double slope = number_at(header, offsetof(nifti_1_header, scl_slope), offsetof(nifti_2_header, scl_slope));
+  if (slope != 0.0 && !std::isnan(slope)) {  // either means unscaled
+    source.slope = slope;
+    source.intercept = number_at(header, offsetof(nifti_1_header, scl_inter), offsetof(nifti_2_header, scl_inter));
   }
-  source.placement = placement_of(*image, mm, source.remarks);
+  source.placement = placement_of(*image, usable_qform(header), mm, source.remarks);
   if (source.placement) {
     // The matrix defines the places of the voxels; pixdim is kept if it agrees up to rounding.
     constexpr double kRounding = 1e-3;

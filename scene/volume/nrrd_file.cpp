@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include "base/lower_case.hpp"
@@ -83,16 +84,26 @@ std::string header_for_teem(const TextHeader& header) {
 
 using NrrdPointer = std::unique_ptr<Nrrd, decltype(&nrrdNuke)>;
 
-std::string biff_message() {
+/// Teem's error: the header's field that it read, if it says so, and the cause.
+struct TeemError {
+  std::string field, cause;
+};
+TeemError teem_error() {
   const std::unique_ptr<char, decltype(&std::free)> text(biffGetDone(NRRD), &std::free);
-  // The last line is the cause; earlier ones name teem's active functions.
-  std::string cause;
+  // The last line is the cause, behind the name of a function; those before have that of the function for the field.
+  std::string field, cause;
   std::istringstream lines(text ? text.get() : "");
   for (std::string line; std::getline(lines, line);) {
+    static const std::regex kFunction(R"(^\s*\[nrrd\] _?nrrd(ReadNrrdParse_)?(\w+): (.*)$)");
+    std::smatch part;
+    if (std::regex_match(line, part, kFunction)) {
+      if (part[1].matched) field = part[2].str();
+      line = part[3].str();
+    }
     if (!trimmed(line).empty()) cause = trimmed(line);
   }
-  const auto colon = cause.find("] ");
-  return colon == std::string::npos ? cause : cause.substr(colon + 2);
+  std::replace(field.begin(), field.end(), '_', ' ');
+  return {field, cause};
 }
 
 NrrdPointer parse_with_teem(const TextHeader& header) {
@@ -102,8 +113,13 @@ NrrdPointer parse_with_teem(const TextHeader& header) {
   NrrdPointer nrrd(nrrdNew(), &nrrdNuke);
   const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> io(nrrdIoStateNew(), &nrrdIoStateNix);
   io->skipData = AIR_TRUE;
-  if (nrrdStringRead(nrrd.get(), header_for_teem(header).c_str(), io.get()) != 0)
-    header.refuse(0, "not a valid NRRD header: " + biff_message(), {}, {}, "correct the header");
+  if (nrrdStringRead(nrrd.get(), header_for_teem(header).c_str(), io.get()) != 0) {
+    const TeemError error = teem_error();
+    const Field* const field = header.find({error.field.c_str()});
+    header.refuse(field != nullptr ? field->line : 0,
+                  "not a valid NRRD header: " + (field != nullptr ? "'" + error.field + "': " : "") + error.cause, {},
+                  {}, "correct the header");
+  }
   return nrrd;
 }
 
@@ -111,10 +127,24 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
   return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
-/// Whether an axis can be spatial: its kind allows it, and it has a direction if any axis does.
+/// Whether a direction has a part beyond the three dimensions of space: along time.
+bool has_time(const Nrrd& nrrd, unsigned axis) {
+  const double* const direction = nrrd.axis[axis].spaceDirection;
+  return has_direction(nrrd, axis) && std::any_of(direction + std::min(3U, nrrd.spaceDim), direction + nrrd.spaceDim,
+                                                  [](double part) { return part != 0.0; });
+}
+
+/// Whether an axis runs along time alone.
+bool is_time(const Nrrd& nrrd, unsigned axis) {
+  const double* const direction = nrrd.axis[axis].spaceDirection;
+  return has_time(nrrd, axis) && std::all_of(direction, direction + 3, [](double part) { return part == 0.0; });
+}
+
+/// Whether an axis can be spatial: its kind allows it, and it has a direction in space if any axis does.
 bool may_be_spatial(const Nrrd& nrrd, unsigned axis) {
   const int kind = nrrd.axis[axis].kind;
   if (kind == nrrdKindTime || (kind != nrrdKindUnknown && nrrdKindIsDomain(kind) == 0)) return false;
+  if (is_time(nrrd, axis)) return false;
   bool any = false;
   for (unsigned a = 0; a < nrrd.dim; ++a) any = any || has_direction(nrrd, a);
   return !any || has_direction(nrrd, axis);
@@ -264,9 +294,20 @@ double spacing_of(const TextHeader& header, const Nrrd& nrrd, unsigned axis) {
   return (info.max - info.min) / static_cast<double>(info.size - (node ? std::min<std::size_t>(1, info.size - 1) : 0));
 }
 
+/// Refuses a spacing beside a direction that has another length; mm or the header's unit.
+void refuse_other_spacing(const TextHeader& header, const Nrrd& nrrd, unsigned axis, double length) {
+  constexpr double kRounding = 1e-3;
+  const Field* const spacings = header.find({"spacings"});
+  if (spacings == nullptr) return;
+  const double spacing = header.numbers(*spacings, nrrd.dim)[axis];
+  if (std::isnan(spacing) || std::abs(spacing - length) <= kRounding * length) return;
+  header.refuse(spacings->line, fmt::format("axis {} has a spacing and a space direction of another length", axis + 1),
+                fmt::format("{:g}, or no spacings", length), fmt::format("{:g}", spacing), "correct the header");
+}
+
 /// Sets the placement from directions and origin in mm. Adds a remark if some are given but unusable.
 void place_in_body(Geometry& geometry, const Nrrd& nrrd, const std::array<glm::dvec3, 3>& directions,
-                   const glm::dvec3& origin) {
+                   const glm::dvec3& origin, bool given_origin) {
   const auto signs = towards_ras(nrrd.space);
   if (!signs) {
     bool straight = true;
@@ -274,13 +315,18 @@ void place_in_body(Geometry& geometry, const Nrrd& nrrd, const std::array<glm::d
       const glm::dvec3& direction = directions[static_cast<std::size_t>(a)];
       straight = straight && direction[a] > 0.0 && direction[a] == glm::length(direction);
     }
-    if (!straight) geometry.remarks.push_back("the header's space is not anatomical: axes are drawn as stored");
+    const bool left_handed = nrrd.space == nrrdSpace3DLeftHanded || nrrd.space == nrrdSpace3DLeftHandedTime;
+    const bool moved = std::abs(origin[0]) + std::abs(origin[1]) + std::abs(origin[2]) > 0.0;
+    if (!straight || left_handed || moved)
+      geometry.remarks.push_back("the header's space is not anatomical: axes are drawn as stored, around the origin");
     return;
   }
   const glm::dvec3 sign((*signs)[0], (*signs)[1], (*signs)[2]);
   Placement placement{.direction = {sign * directions[0], sign * directions[1], sign * directions[2]},
                       .origin = sign * origin};
   for (int world = 0; world < 3; ++world) placement.has_origin = placement.has_origin && std::abs(origin[world]) < 1e9;
+  if (!placement.has_origin && given_origin)
+    geometry.remarks.push_back("the header's space origin is not a place: the volume's centre is at 0");
   if (spans_space(placement.direction))
     geometry.placement = placement;
   else
@@ -298,6 +344,9 @@ Geometry geometry_of(const TextHeader& header, const Nrrd& nrrd, const std::arra
     const NrrdAxisInfo& info = nrrd.axis[axes[a]];
     double declared = 0.0;
     if (has_direction(nrrd, axes[a])) {
+      if (has_time(nrrd, axes[a]))
+        geometry.remarks.push_back(
+            fmt::format("the direction of axis {} has a part along time, which is left out", a + 1));
       double square = 0.0;
       for (unsigned world = 0; world < nrrd.spaceDim; ++world) {
         const double along = info.spaceDirection[world] * mm[world];
@@ -305,6 +354,7 @@ Geometry geometry_of(const TextHeader& header, const Nrrd& nrrd, const std::arra
         if (world < 3) directions[a][static_cast<int>(world)] = along;
       }
       declared = std::sqrt(square);
+      refuse_other_spacing(header, nrrd, axes[a], declared);
     } else {
       declared = spacing_of(header, nrrd, axes[a]) * known_unit(info.units, geometry);
     }
@@ -313,7 +363,12 @@ Geometry geometry_of(const TextHeader& header, const Nrrd& nrrd, const std::arra
   }
   if (directed) {
     place_in_body(geometry, nrrd, directions,
-                  glm::dvec3(nrrd.spaceOrigin[0] * mm[0], nrrd.spaceOrigin[1] * mm[1], nrrd.spaceOrigin[2] * mm[2]));
+                  glm::dvec3(nrrd.spaceOrigin[0] * mm[0], nrrd.spaceOrigin[1] * mm[1], nrrd.spaceOrigin[2] * mm[2]),
+                  header.find({"space origin"}) != nullptr);
+  } else if (nrrd.spaceDim > 0) {
+    geometry.remarks.push_back(
+        nrrd.spaceDim < 3 ? fmt::format("the header's space has {} dimensions: axes are drawn as stored", nrrd.spaceDim)
+                          : "the header's space has no space directions: axes are drawn as stored");
   }
   return geometry;
 }
@@ -347,7 +402,7 @@ VoxelSource read_nrrd_header(const fs::path& path) {
   if (detached == nullptr) {
     source.files = {{.path = path, .file_offset = header.end}};
   } else {
-    for (auto& file : detached_files(header, *detached)) source.files.push_back({.path = std::move(file)});
+    for (auto& file : detached_files(header, *detached, sizes)) source.files.push_back({.path = std::move(file)});
   }
   for (DataFile& file : source.files) skip_into(file, header, source);
   if (header.find({"old min", "old max"}) != nullptr)

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 
 namespace fastsplat::volume {
 namespace {
@@ -139,24 +139,21 @@ std::span<const double> StoredValues::next_words(std::uint64_t most) {
 }
 
 double StoredValues::number_from(std::string_view word) const {
-  double value = 0.0;
-  const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
-  const auto [rest, error] = std::from_chars(first, word.data() + word.size(), value);
-  const bool number = error == std::errc{} && rest == word.data() + word.size();
-  const bool right = number && with_type(component_, [value](auto type) {
+  const auto value = double_from(word);
+  const bool right = value && with_type(component_, [value](auto type) {
                        using T = decltype(type);
                        if constexpr (std::is_floating_point_v<T>) return true;
-                       return fits<T>(value);
+                       return fits<T>(*value);
                      });
   if (!right) {
     throw_input({.where = path_.string(),
                  .what = fmt::format("voxel {} of the text is {}", count_ + values_.size(),
-                                     number ? "not a value of the header's type" : "not a number"),
+                                     value ? "not a value of the header's type" : "not a number"),
                  .expected = {},
                  .got = fmt::format("'{}'", word.substr(0, 40)),
-                 .fix = number ? "correct the header's type" : "correct the text, or copy the file again"});
+                 .fix = value ? "correct the header's type" : "correct the text, or copy the file again"});
   }
-  return value;
+  return *value;
 }
 
 }  // namespace fastsplat::volume

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <sstream>
 
@@ -80,12 +79,9 @@ std::vector<double> TextHeader::numbers(const Field& field, std::size_t many) co
   }
   std::vector<double> numbers;
   for (const auto& word : words) {
-    double number = 0.0;
-    const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
-    const auto [stop, error] = std::from_chars(first, word.data() + word.size(), number);
-    if (error != std::errc{} || stop != word.data() + word.size())
-      refuse(field.line, "invalid number", "a number", word.substr(0, 40), "correct the header");
-    numbers.push_back(number);
+    const auto number = double_from(word);
+    if (!number) refuse(field.line, "invalid number", "a number", word.substr(0, 40), "correct the header");
+    numbers.push_back(*number);
   }
   return numbers;
 }

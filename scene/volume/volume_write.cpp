@@ -140,13 +140,16 @@ std::string metaimage_header(const Volume& volume, VoxelType type, std::size_t p
     // Avoids -0.
     return fmt::format("{} {} {}", 0.0 - ras.x, 0.0 - ras.y, ras.z);
   };
-  std::string matrix;
-  for (int a = 0; a < 3; ++a) matrix += (a > 0 ? " " : "") + vector(volume.axes[a]);
+  std::string place;
+  if (volume.placed || volume.oblique) {
+    for (int a = 0; a < 3; ++a) place += (a > 0 ? " " : "TransformMatrix = ") + vector(volume.axes[a]);
+    place += fmt::format("\nOffset = {}\nCenterOfRotation = 0 0 0\n", vector(first_voxel(volume)));
+  }
   return fmt::format(
       "ObjectType = Image\nNDims = 3\nComment = written by fastsplat\nBinaryData = True\nBinaryDataByteOrderMSB = "
-      "False\nCompressedData = True\nCompressedDataSize = {}\nTransformMatrix = {}\nOffset = {}\nCenterOfRotation = "
-      "0 0 0\nElementSpacing = {} {} {}\nDimSize = {} {} {}\nElementType = {}\nElementDataFile = {}\n",
-      packed_size, matrix, vector(first_voxel(volume)), s.x, s.y, s.z, d.x, d.y, d.z, metaimage_type(type), data_file);
+      "False\nCompressedData = True\nCompressedDataSize = {}\n{}ElementSpacing = {} {} {}\nDimSize = {} {} "
+      "{}\nElementType = {}\nElementDataFile = {}\n",
+      packed_size, place, s.x, s.y, s.z, d.x, d.y, d.z, metaimage_type(type), data_file);
 }
 
 short nifti_type(VoxelType type) {
@@ -188,7 +191,7 @@ std::string nifti_header(const Volume& volume, VoxelType type, std::size_t bytes
   header.vox_offset = static_cast<float>(kDataOffset);
   header.scl_slope = 1.0f;
   header.xyzt_units = NIFTI_UNITS_MM;
-  header.sform_code = NIFTI_XFORM_ALIGNED_ANAT;
+  if (volume.placed || volume.oblique) header.sform_code = NIFTI_XFORM_ALIGNED_ANAT;
   const glm::dvec3 origin = first_voxel(volume);
   float* const rows[3] = {header.srow_x, header.srow_y, header.srow_z};
   for (int a = 0; a < 3; ++a) {

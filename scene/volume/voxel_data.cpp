@@ -167,7 +167,8 @@ std::vector<float> read_voxels(const VoxelSource& source, std::optional<float> n
     }
     stored.verify_rest();
   }
-  refuse_trouble(source, findings.infinite, "are not finite numbers",
+  const bool large = std::isfinite(findings.infinite.value);
+  refuse_trouble(source, findings.infinite, large ? "are too large for a float" : "are not finite numbers",
                  "add --nan-as 0 (or another value) to replace them");
   return voxels;
 }
@@ -215,11 +216,6 @@ void check_source(const VoxelSource& source) {
   if (!std::isfinite(source.slope) || !std::isfinite(source.intercept)) {
     refuse(source, "the header's value scaling is not a number", "finite scl_slope and scl_inter",
            fmt::format("{} and {}", source.slope, source.intercept), "correct the header");
-  }
-
-  if (count % source.files.size() != 0) {
-    refuse(source, "the voxels cannot be divided equally among the data files", extents_text(source) + " voxels",
-           fmt::format("{} files", source.files.size()), "name one data file per slice");
   }
   const std::uint64_t bytes = source.voxels_per_file() * size_of(source.component);
   for (const DataFile& file : source.files) {

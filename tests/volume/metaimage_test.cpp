@@ -112,7 +112,7 @@ TEST_F(MetaImage, SeparateData) {
   EXPECT_THAT(message("../v.raw"), HasSubstr("must be in the header's folder"));
   EXPECT_THAT(message("/etc/passwd"), HasSubstr("must be in the header's folder"));
   EXPECT_THAT(message("LIST"), HasSubstr("invalid length"));
-  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("equally"));
+  EXPECT_THAT(message("slice%03d.raw 1 9 1"), HasSubstr("does not match the sizes (expected 2 files, got 9)"));
   EXPECT_THAT(message("missing.raw"), HasSubstr("no such file"));
   EXPECT_THAT(refusal([&] { load_volume(mhd("HeaderSize = 99\nElementDataFile = v.raw\n")); }),
               HasSubstr("declares more"));
@@ -148,6 +148,21 @@ TEST_F(MetaImage, UnitsAndOddSpacingsAreFollowed) {
                           HasSubstr("axis 3 is -2, which is not a length: 2 mm")));
   EXPECT_THAT(load("AnatomicalOrientation = LPS\n").remarks, ElementsAre(HasSubstr("LPS has no TransformMatrix")));
   EXPECT_THAT(load("AnatomicalOrientation = RAI\n").remarks, ElementsAre());
+}
+
+TEST_F(MetaImage, EachFieldIsFollowedOrRefusedOrSaid) {
+  // MetaIO's own readings: ImagePosition is an offset, HeaderSize counts from the file's beginning.
+  EXPECT_EQ(load("ImagePosition = 10 20 30\n").centre, load("Offset = 10 20 30\n").centre);
+  EXPECT_TRUE(load("ImagePosition = 10 20 30\n").placed);
+  EXPECT_THAT(load("HeaderSize = -1\n", "X12345678").voxels, ElementsAre('1', '2', '3', '4', '5', '6', '7', '8'));
+  EXPECT_THAT(refused("HeaderSize = 3\n"), HasSubstr("the voxels would begin inside the header"));
+  EXPECT_THAT(refused("HeaderSizePerSlice = 1\n"), HasSubstr("HeaderSizePerSlice is not supported"));
+  EXPECT_THAT(refused("Spacing = 2 3 4\n"), HasSubstr("did you mean 'ElementSpacing'?"));
+  EXPECT_THAT(refused("Offset = 1 2 3\nPosition = 1 2 4\n"), HasSubstr("v.mha:6: 'Position' contradicts line 5"));
+  EXPECT_EQ(load("Offset = 1 2 3\nOrigin = 1  2 3\n").centre, load("Offset = 1 2 3\n").centre);
+  EXPECT_THAT(load("ElementOrigin = 1 2 3\nElementDirection = -1 0 0 0 1 0 0 0 1\n").remarks,
+              ElementsAre(HasSubstr("ElementOrigin 1 2 3 is not applied"), HasSubstr("ElementDirection -1 0 0")));
+  EXPECT_THAT(load("Size = 3\nDirection = up\n").remarks, ElementsAre());  // a program's own
 }
 
 TEST_F(MetaImage, DataInSeveralFiles) {

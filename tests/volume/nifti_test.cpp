@@ -160,12 +160,40 @@ TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
     const Volume neither = load({.sform = 1, .rows = rows}, kBytes);
     EXPECT_THAT(neither.voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
     EXPECT_FALSE(neither.placed);
-    EXPECT_THAT(neither.remarks, ElementsAre(HasSubstr("sform are not independent: axes are drawn as stored")));
+    EXPECT_THAT(
+        neither.remarks,
+        ElementsAre(HasSubstr("sform needs three independent axes and a finite origin: axes are drawn as stored")));
     // A half turn about z: x runs to the left, y to the back.
     const Volume by_qform = load({.sform = 1, .rows = rows, .qform = 1, .quaternion = {0, 0, 1}}, kBytes);
     EXPECT_THAT(by_qform.voxels, ElementsAre(4, 3, 2, 1, 8, 7, 6, 5));
-    EXPECT_THAT(by_qform.remarks, ElementsAre(HasSubstr("sform are not independent: its qform is used")));
+    EXPECT_THAT(
+        by_qform.remarks,
+        ElementsAre(HasSubstr("sform needs three independent axes and a finite origin: its qform is used instead")));
   }
+}
+
+// libnifti2 makes what is not finite 0, and shortens a rotation that is too long.
+TEST_F(Nifti, AQformThatIsNoRotationIsNotUsed) {
+  int unusable = 0;
+  for (const int version : {1, 2}) {
+    for (const auto& quaternion : {std::array<double, 3>{NAN, 0.0, 1.0}, {0.0, INFINITY, 0.0}, {2.0, 2.0, 2.0}}) {
+      const Volume volume = load({.version = version, .qform = 1, .quaternion = quaternion}, kBytes);
+      EXPECT_FALSE(volume.placed);
+      EXPECT_THAT(volume.remarks, ElementsAre(HasSubstr("the header's qform needs three independent axes")));
+      ++unusable;
+    }
+    EXPECT_TRUE(load({.version = version, .qform = 1, .quaternion = {0, 0, 1.00001}}, kBytes).placed);
+  }
+  std::printf("[figure] qforms that are no rotation = %d\n", unusable);
+}
+
+TEST_F(Nifti, ScalingIsNotHalfApplied) {
+  EXPECT_THAT(refused({.slope = 2.0, .intercept = NAN}), HasSubstr("the header's value scaling is not a number"));
+  EXPECT_THAT(refused({.slope = INFINITY}), HasSubstr("the header's value scaling is not a number"));
+}
+
+TEST_F(Nifti, AnUnknownUnitIsSaid) {
+  EXPECT_THAT(load({.units = 7}, kBytes).remarks, ElementsAre(HasSubstr("unit of length, code 7, is unknown: mm")));
 }
 
 TEST_F(Nifti, WideIntegersAreRead) {

@@ -51,6 +51,45 @@ TEST_F(NrrdMeaning, AxesThatAreNotOfSpaceAreNotTheVolumes) {
   std::printf("[figure] headers of colours and films refused = %d\n", refusals);
 }
 
+TEST_F(NrrdMeaning, AnAxisAlongTimeAloneIsNotTheVolumes) {
+  const Volume volume =
+      load("dimension: 4\nspace: LPST\nsizes: 1 4 3 1\nspace directions: (0,0,0,1) (2,0,0,0) (0,3,0,0) (0,0,4,0)\n");
+  EXPECT_EQ(volume.dims, glm::ivec3(4, 3, 1));
+  EXPECT_EQ(volume.spacing, glm::dvec3(2, 3, 4));
+  EXPECT_TRUE(volume.placed);
+  EXPECT_THAT(volume.remarks, ElementsAre(HasSubstr("12 bytes more than needed for 4 x 3 x 1 voxels")));
+}
+
+TEST_F(NrrdMeaning, WhatASpaceLacksIsSaid) {
+  const auto remarks = [&](const std::string& lines) { return load("dimension: 3\nsizes: 4 3 2\n" + lines).remarks; };
+  const std::string diagonal = "space directions: (2,0,0) (0,3,0) (0,0,4)\n";
+  EXPECT_THAT(remarks("space: LPS\nspacings: 2 3 4\nspace origin: (1,2,3)\n"),
+              ElementsAre(HasSubstr("the header's space has no space directions")));
+  EXPECT_THAT(remarks("space dimension: 2\nspace directions: (2,0) (0,3) (1,1)\n"),
+              ElementsAre(HasSubstr("the header's space has 2 dimensions")));
+  EXPECT_THAT(remarks("space: 3D-left-handed\n" + diagonal), ElementsAre(HasSubstr("not anatomical")));
+  EXPECT_THAT(remarks("space: scanner-xyz\n" + diagonal + "space origin: (1,2,3)\n"),
+              ElementsAre(HasSubstr("not anatomical")));
+  EXPECT_THAT(remarks("space: scanner-xyz\n" + diagonal), ElementsAre());
+  EXPECT_THAT(remarks("space: LPS\n" + diagonal + "space origin: (nan,nan,nan)\n"),
+              ElementsAre(HasSubstr("the header's space origin is not a place")));
+  EXPECT_THAT(
+      load("dimension: 3\nspace: LPST\nsizes: 4 3 2\nspace directions: (2,0,0,9) (0,3,0,0) (0,0,4,0)\n").remarks,
+      ElementsAre(HasSubstr("the direction of axis 1 has a part along time")));
+}
+
+TEST_F(NrrdMeaning, ASpacingBesideADirectionSaysTheSame) {
+  const std::string lines = "dimension: 3\nsizes: 4 3 2\nspace: LPS\nspace directions: (2,0,0) (0,3,0) (0,0,4)\n";
+  EXPECT_EQ(load(lines + "spacings: 2 3 nan\n").spacing, glm::dvec3(2, 3, 4));
+  EXPECT_THAT(refused(lines + "spacings: 2 9 4\n"),
+              HasSubstr("v.nrrd:8: axis 2 has a spacing and a space direction of another length (expected 3"));
+}
+
+TEST_F(NrrdMeaning, WhatTeemRefusesHasItsLine) {
+  EXPECT_THAT(refused("dimension: 3\nsizes: 4 3 2\nkinds: domain domian domain\n"),
+              HasSubstr("v.nrrd:6: not a valid NRRD header: 'kinds': couldn't parse"));
+}
+
 TEST_F(NrrdMeaning, SpacesWithTimePlaceAsThoseWithout) {
   int compared = 0;
   for (const std::string space : {"left-posterior-superior", "right-anterior-superior", "left-anterior-superior"}) {
@@ -162,7 +201,9 @@ TEST_F(NrrdMeaning, DataInSeveralFiles) {
   EXPECT_EQ(nhdr("line skip: 1\ndata file: LIST 1\nrow0\nrow1\nrow2\nrow3\nrow4\nrow5\n").voxels, whole.voxels);
   EXPECT_EQ(files_of((folder_ / "v.nhdr").string()).size(), 7U);
   EXPECT_THAT(refusal([&] { nhdr("data file: LIST\nrow0\n"); }), HasSubstr("declares more"));
-  EXPECT_THAT(refusal([&] { nhdr("data file: LIST\nrow0\nrow1\nrow2\nrow3\nrow4\n"); }), HasSubstr("equally"));
+  EXPECT_THAT(refusal([&] { nhdr("data file: LIST\nrow0\nrow1\nrow2\nrow3\nrow4\n"); }),
+              HasSubstr("v.nhdr:6: the number of data files does not match the sizes (expected 2 files, got 5)"));
+  EXPECT_THAT(refusal([&] { nhdr("data file: s%03d.raw 1 3 1\n"); }), HasSubstr("expected 2 files, got 3"));
 }
 
 TEST_F(NrrdMeaning, LinesAndBytesAreSkipped) {

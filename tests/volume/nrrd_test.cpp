@@ -273,7 +273,7 @@ TEST_F(Nrrd, NotFiniteIsRefusedWithCountAndPlace) {
   EXPECT_THAT(refused(lines, bytes_of<float>({0, 1, 2, NAN, 4, INFINITY, 6, 7})),
               HasSubstr("2 of 8 voxels are not finite numbers (got nan first, at voxel (1, 1, 0))"));
   EXPECT_THAT(refused("type: double\nendian: little\n", bytes_of<double>({0, 1, 2, 3, 4, 1e39, 6, 7})),
-              HasSubstr("1 of 8 voxels"));
+              HasSubstr("1 of 8 voxels are too large for a float (got 1e+39 first, at voxel (1, 0, 1))"));
 }
 
 TEST_F(Nrrd, DamagedHeadersAreNamed) {

@@ -35,6 +35,14 @@ GaussianCloud load_gaussians(const std::string& name_or_path) {
   const std::string ending = ending_of(files[0]);
   if (ending == ".ply") return read_gaussian_ply(files[0]);
   if (ending == ".splat") return read_splat_file(files[0]);
+  if (head.starts_with("NRRD") || head.find("ElementDataFile") != std::string::npos || ending == ".nii" ||
+      files[0].string().ends_with(".nii.gz")) {
+    throw_input({.where = name_or_path,
+                 .what = "a volume, not 3-D Gaussians",
+                 .expected = ".ply or .splat",
+                 .got = {},
+                 .fix = "give it with --volume"});
+  }
   throw_input({.where = name_or_path,
                .what = "neither a file of 3-D Gaussians nor a built-in scene",
                .expected = fmt::format(".ply or .splat, or {}", fmt::join(synthetic_gaussian_names(), ", ")),

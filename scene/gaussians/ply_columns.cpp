@@ -70,21 +70,21 @@ std::size_t PlyColumns::column(const PlyElement& vertices, const std::string& na
 void PlyColumns::find_colour(const PlyElement& vertices) {
   const bool rgb = !vertices.find("f_dc_0") && vertices.find("red");
   for (std::size_t i = 0; i < 3; ++i) constant_[i] = column(vertices, rgb ? kRgb[i] : fmt::format("f_dc_{}", i));
-  if (!rgb) return;
-  switch (vertices.properties[constant_[0]].type) {
+  for (std::size_t i = 0; rgb && i < 3; ++i) white_[i] = white_of(vertices.properties[constant_[i]]);
+}
+
+double PlyColumns::white_of(const PlyProperty& property) const {
+  switch (property.type) {
     case PlyType::UInt8:
-      white_ = 255.0;
-      return;
+      return 255.0;
     case PlyType::UInt16:
-      white_ = 65535.0;
-      return;
+      return 65535.0;
     case PlyType::Float32:
     case PlyType::Float64:
-      white_ = 1.0;
-      return;
+      return 1.0;
     default:
       throw_input({.where = where_,
-                   .what = "unsupported type of the property red",
+                   .what = "unsupported type of the property " + property.name,
                    .expected = "uchar, ushort, float or double",
                    .got = "another integer type",
                    .fix = "write the colours as uchar, or as f_dc_0..2"});
@@ -139,6 +139,7 @@ void PlyColumns::read(std::span<const double> row, GaussianRows& to) {
   encoded_ = encoded_ || row[*scale_[0]] <= 0.0 || row[opacity_] < 0.0 || row[opacity_] > 1.0;
   const double filter = filter_ ? row[*filter_] : 0.0;
   if (!std::isfinite(filter)) return to.drop("filter_3D is not finite");
+  if (filter < 0.0) return to.drop("filter_3D is below 0");
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
     one.position[i] = static_cast<float>(row[position_[at]]);
@@ -156,17 +157,20 @@ void PlyColumns::read(std::span<const double> row, GaussianRows& to) {
 
   harmonics_.clear();
   glm::dvec3 constant(row[constant_[0]], row[constant_[1]], row[constant_[2]]);
-  if (white_ != 0.0) {
+  if (white_[0] != 0.0) {
     for (int c = 0; c < 3; ++c) {
-      if (constant[c] >= 0.0 && constant[c] <= white_) continue;
+      const double white = white_[static_cast<std::size_t>(c)];
+      if (constant[c] >= 0.0 && constant[c] <= white) {
+        constant[c] = (constant[c] / white - 0.5) / kConstantHarmonic;
+        continue;
+      }
       if (!std::isfinite(constant[c])) break;  // dropped with its row
       throw_input({.where = where_,
                    .what = fmt::format("the property {} is out of range", kRgb[static_cast<std::size_t>(c)]),
-                   .expected = fmt::format("0..{:g} of its type", white_),
+                   .expected = fmt::format("0..{:g} of its type", white),
                    .got = fmt::format("{:g}", constant[c]),
                    .fix = "write colours of 0..255 as uchar"});
     }
-    constant = (constant / white_ - 0.5) / kConstantHarmonic;
   }
   harmonics_.emplace_back(constant);
   const std::size_t each = rest_.size() / 3;  // per channel

@@ -26,6 +26,7 @@ class PlyColumns {
  private:
   std::size_t column(const PlyElement& vertices, const std::string& name) const;
   void find_colour(const PlyElement& vertices);
+  double white_of(const PlyProperty& property) const;
   void find_rest(const PlyElement& vertices);
   void find_unused(const PlyElement& vertices);
 
@@ -36,7 +37,7 @@ class PlyColumns {
   std::size_t opacity_ = 0;
   std::optional<std::size_t> filter_{};  ///< the deviation of Mip-Splatting's smoothing filter
   std::vector<std::size_t> rest_{};      ///< f_rest_0 ..
-  double white_ = 0.0;                   ///< value of red, green and blue that means 1; 0: constant_ are harmonics
+  std::array<double, 3> white_{};        ///< value of red, green and blue that means 1; 0: constant_ are harmonics
   int degree_ = 0;
   bool encoded_ = false;  ///< some scale is not above 0 or some opacity not in 0..1: they are logarithms and logits
   std::vector<std::string> remarks_{};

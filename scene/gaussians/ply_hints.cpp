@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <vector>
 
 #include "base/lower_case.hpp"
 #include "base/number_text.hpp"
@@ -17,24 +18,32 @@ namespace {
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
-/// "Vertical Axis: z" as the key verticalaxis and the value z. Without a colon or equals sign the first word is the
-/// key.
+/// "Vertical Axis: z" as the key verticalaxis and the value z.
 struct Hint {
   std::string key{}, value{};  ///< lower case; the key keeps only letters
   std::string text{};          ///< as in the file
   bool marked = false;         ///< has a colon or an equals sign, so it is not free text
 };
 
-Hint hint_of(const std::string& text) {
-  const std::size_t mark = text.find_first_of(":="),
-                    end = std::min(mark == text.npos ? text.find(' ') : mark, text.size());
-  Hint hint{.text = text, .marked = mark != text.npos};
+/// `end`: of the key; `marked`: by a colon or an equals sign.
+Hint hint_of(const std::string& text, std::size_t end, bool marked) {
+  end = std::min(end, text.size());
+  Hint hint{.text = text, .marked = marked};
   for (const char c : lower_case(text.substr(0, end)))
     if (std::isalpha(static_cast<unsigned char>(c)) != 0) hint.key += c;
   const std::string rest = lower_case(text.substr(std::min(end + 1, text.size())));
   const std::size_t first = std::min(rest.find_first_not_of(" \t"), rest.size());
   hint.value = rest.substr(first, rest.find_last_not_of(" \t") + 1 - first);
   return hint;
+}
+
+/// Without a colon or equals sign, the key is the first word, or all words but the last.
+std::vector<Hint> hints_in(const std::string& text) {
+  if (const auto mark = text.find_first_of(":="); mark != text.npos) return {hint_of(text, mark, true)};
+  std::vector<Hint> hints{hint_of(text, text.find(' '), false)};
+  const auto last = text.find_last_of(' ');
+  if (last != text.find(' ')) hints.push_back(hint_of(text, last, false));
+  return hints;
 }
 
 bool is_one_of(const std::string& word, std::initializer_list<std::string_view> words) {
@@ -81,6 +90,10 @@ class Reader {
 
   void take(const Hint& hint) {
     if (is_one_of(hint.key, {"verticalaxis", "upaxis", "up", "upvector", "updirection", "worldup"})) return up(hint);
+    // "Y-up" alone, and "coordinate system: Z up".
+    const std::string text = lower_case(hint.text);
+    if (!hint.marked && text.ends_with("up") && axis_named(text)) return up({.value = text, .text = hint.text});
+    if (is_one_of(hint.key, {"coordinatesystem", "coordinates", "axes"}) && hint.value.ends_with("up")) return up(hint);
     if (is_one_of(hint.key, {"splatrendermode", "rendermode", "rasterizemode"})) return mode(hint);
     if (is_one_of(hint.key, {"antialiased", "antialias", "antialiasing"})) return antialiased(hint);
     if (hint.key == "trainflags" && has(hint.value, "antialias")) out_.antialiased = true;
@@ -152,7 +165,9 @@ class Reader {
 PlyHints hints_of(std::span<const std::string> comments) {
   Reader reader(
       std::ranges::any_of(comments, [](const auto& text) { return has(lower_case(text), "exported from brush"); }));
-  for (const std::string& text : comments) reader.take(hint_of(text));
+  for (const std::string& text : comments) {
+    for (const Hint& hint : hints_in(text)) reader.take(hint);
+  }
   return reader.result();
 }
 

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -94,11 +93,8 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
                  .fix = "the file is truncated or its header is wrong: write or download it again"});
   }
   const std::string_view text = text_.substr(at_, std::min(text_.find_first_of(kBlanks, at_), text_.size()) - at_);
-  std::string_view digits = text;
-  if (digits.size() > 1 && digits[0] == '+') digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::invalid_argument || stop != digits.data() + digits.size()) {
+  const auto value = double_from(text);
+  if (!value) {
     constexpr std::size_t kShown = 40;
     throw_input({.where = here,
                  .what = "not a number",
@@ -107,8 +103,7 @@ double PlyRows::word(const PlyElement& element, std::uint64_t number) {
                  .fix = "the file is damaged: write or download it again"});
   }
   at_ += text.size();
-  // Outside a double's range, too large or too small: infinity, which callers that need finite numbers reject.
-  return error == std::errc::result_out_of_range ? std::numeric_limits<double>::infinity() : value;
+  return *value;
 }
 
 std::size_t PlyRows::require_end() const {

@@ -47,6 +47,13 @@ TEST(GaussianHints, VerticalAxis) {
       // Brush's frames have y down, and its plain y says no more than that.
       {{"Exported from Brush", "Vertical axis: y"}, UpAxis::MinusY},
       {{"Exported from Brush", "Vertical axis: 0 1 0"}, UpAxis::Y},
+      // Without a colon.
+      {{"Vertical Axis z"}, UpAxis::Z},
+      {{"Y-up"}, UpAxis::Y},
+      {{"coordinate system: Z up"}, UpAxis::Z},
+      {{"up 0 0 -1"}, UpAxis::MinusZ},
+      {{"x"}, std::nullopt},
+      {{"cleaned up"}, std::nullopt},
       {{"up to date as of today"}, std::nullopt},
       {{"made by a tool", "SH degree: 3", "Handedness: right", "SplatRenderMode: default"}, std::nullopt},
   };
@@ -200,6 +207,11 @@ TEST(GaussianProperties, RedGreenBlueAreColours) {
   EXPECT_THAT([] { read(with_rgb("float", 255.0, 0.2)); },
               ::testing::ThrowsMessage<UserError>(HasSubstr("red is out of range (expected 0..1")));
   EXPECT_THAT([] { read(with_rgb("int", 255.0, 0.2)); }, ::testing::ThrowsMessage<UserError>(HasSubstr("uchar")));
+  // Each by its own type.
+  const std::string mixed = replaced(with_rgb("float", 1.0, 200.0), "property float red", "property uchar red");
+  const glm::vec3 seen = 0.5F + 0.28209479F * read(mixed).harmonics[7];
+  EXPECT_NEAR(seen.x, 200.0F / 255.0F, 1e-6F);
+  EXPECT_NEAR(seen.y, 0.4F, 1e-6F);
   // Beside harmonics they are the same colours once more.
   EXPECT_THAT(read(twenty().and_of("red", 7.0).text("ascii")).remarks, ElementsAre());
 }

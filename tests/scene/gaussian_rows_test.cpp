@@ -49,6 +49,7 @@ TEST(GaussianRows, BadOnesAreDroppedAndNamed) {
       {"infinite harmonic", twelve().with("f_rest_15", kInfinite), "f_rest_15 is not finite"},
       {"nan rotation", twelve().with("rot_3", kNan), "rot_3 is not finite"},
       {"no rotation", turned_nowhere(twelve(), 5), "rotation (rot_0 to rot_3) is zero"},
+      {"negative filter", twelve().and_of("filter_3D", 0.0).with("filter_3D", -1.0), "filter_3D is below 0"},
       {"nan filter", twelve().and_of("filter_3D", 0.0).with("filter_3D", kNan), "filter_3D is not finite"}};
   int files = 0;
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -71,6 +72,18 @@ TEST(GaussianRows, SeveralAreOneRemark) {
   EXPECT_EQ(read.gaussians.size(), 9U);
   EXPECT_THAT(read.remarks,
               ElementsAre(AllOf(HasSubstr("3 of 12"), HasSubstr("Gaussian 3"), HasSubstr("x is not finite"))));
+}
+
+// As text, a number too small for a double is 0.
+TEST(GaussianRows, TinyNumbersAreZero) {
+  std::string text = twelve().with("x", 0.123456, 5).text("ascii");
+  ASSERT_NE(text.find("0.123456"), std::string::npos);
+  text = replaced(text, "0.123456", "-1e-400");
+  const TestFile file(".ply", text);
+  const GaussianCloud read = load_gaussians(file.path());
+  ASSERT_EQ(read.gaussians.size(), 12U);
+  EXPECT_THAT(read.remarks, ElementsAre());
+  EXPECT_EQ(read.gaussians[5].position.x, 0.0F);
 }
 
 // Numbers at the ends of logarithm and logit are a flat, a clear and an opaque Gaussian.

@@ -70,14 +70,14 @@ std::string hash_of_scene(const SceneFlags& flags) {
 /// Hash of the scene that `settings` describe, cached.
 std::string scene_hash(const plan::Settings& settings) {
   static SceneFlags flags;
-  static const std::vector<Subcommand> subcommands{{"scene", "", [](Options& options) {
+  static const std::vector<Subcommand> subcommands{{"render", "", [](Options& options) {
                                                       flags = {};
                                                       declare(options, flags);
                                                       return Action([] { return ExitCode::Pass; });
                                                     }}};
-  static const auto names = flags_of("scene", subcommands);
+  static const auto names = flags_of("render", subcommands);
   static std::map<std::string, std::string> known;
-  plan::Words words{"scene"};
+  plan::Words words{"render"};
   for (const auto& [name, value] : settings) {
     if (!has(names, "--" + name)) continue;
     const auto* flag = std::get_if<bool>(&value);
@@ -140,6 +140,7 @@ plan::Vocabulary plan_vocabulary() {
 }
 
 void require_content(const plan::Plan& plan, const std::string& plan_file) {
+  plan::require_made(plan, plan_vocabulary(), plan_file);  // first: it knows every subcommand that follows
   for (const auto& one : plan.cases) {
     if (content_of(one.settings, subcommands_of(one)) == one.content) continue;
     throw_input(
@@ -149,7 +150,6 @@ void require_content(const plan::Plan& plan, const std::string& plan_file) {
          .got = {},
          .fix = "run it in the folder where the plan was made, or make the plan again with `fastsplat plan make`"});
   }
-  plan::require_made(plan, plan_vocabulary(), plan_file);
 }
 
 std::string program_hash() {

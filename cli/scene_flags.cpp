@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
@@ -165,6 +166,7 @@ scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence*
   for (const scene::Setting& setting : scene::settings()) {
     const auto flag = flags.settings.find(setting.flag);
     if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
+    if (flag != flags.settings.end() && std::holds_alternative<scene::Box>(setting.value)) to.crop_place.clear();
   }
   for (const auto& given : {given_by(flags), file.idle}) {
     auto idle = scene::idle_of(given, to);
@@ -195,7 +197,7 @@ std::string summary(const scene::Scene& scene) {
           ? ""
           : fmt::format(", exposure {:.6g}{}", scene.xray_scale,
                         scene.description.xray_exposure > 0.0 ? "" : " (automatic; --xray-exposure sets a fixed one)");
-  return fmt::format("{} {}x{}x{}, {}, {}, {}x{} pixels{}", scene.volume->name, dims.x, dims.y, dims.z,
+  return fmt::format("{} {}x{}x{}, {}, {}, {}x{} pixels{}", printable(scene.volume->name), dims.x, dims.y, dims.z,
                      scene.transfer_function.name, scene::to_string(scene.description.method), scene.camera.width(),
                      scene.camera.height(), exposure);
 }

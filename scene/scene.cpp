@@ -29,7 +29,7 @@ std::string preset_for(const std::string& volume) {
   return "default";
 }
 
-/// Returns load(). Errors get the place at which a scene file names the input.
+/// Returns load(). Errors get the place at which a scene file names the input, and are of that file.
 template <class Load>
 auto named_at(const std::string& place, const Load& load) {
   try {
@@ -38,7 +38,7 @@ auto named_at(const std::string& place, const Load& load) {
     if (place.empty()) throw;
     ErrorParts parts = error.parts();
     parts.where = place + (parts.where.empty() ? "" : ": " + parts.where);
-    throw_again(error, std::move(parts), error.code());
+    throw_again(error, std::move(parts), error.code() == ExitCode::Usage ? ExitCode::Input : error.code());
   }
 }
 
@@ -62,7 +62,7 @@ Scene build_scene(const SceneDescription& description) {
 Scene build_scene(const SceneDescription& description, std::shared_ptr<const volume::Volume> whole) {
   check_limits(description);
   check_capability(description, kOffersAll);
-  auto volume = cropped(whole, description.crop);
+  auto volume = named_at(description.crop_place, [&] { return cropped(whole, description.crop); });
   const Kernel kernel = make_kernel(description);
   const double unit = volume->kernel_unit();
   const Camera camera(description.camera, *volume, kernel.radius() * unit, description.width, description.height);

@@ -54,8 +54,8 @@ struct SceneDescription {
   VoxelBox crop{};                 ///< voxels outside are ignored
   Display display{};               ///< only for displayed pictures
   std::optional<double> nan_as{};  ///< replaces non-finite voxels, which are refused without it
-  /// "scene.toml:1:10" if a file names the volume and the transfer function, else empty.
-  std::string volume_place{}, transfer_function_place{};
+  /// "scene.toml:1:10" if a file names the volume, the transfer function and the box, else empty.
+  std::string volume_place{}, transfer_function_place{}, crop_place{};
 };
 
 /// Ready to render: files read, names resolved, limits checked.

@@ -125,6 +125,7 @@ SceneFile read_scene_file(const fs::path& path) {
   for (const std::string& name : setting_tables()) {
     if (name.empty()) {
       read_settings(root, name, d, given);
+      if (!d.crop.everything()) d.crop_place = root.where("crop");
     } else if (auto table = root.table(name)) {
       read_settings(*table, name, d, given);
       if (name == "image") read_image(*table, d);

@@ -16,6 +16,12 @@ namespace {
 constexpr const char* kFixed[] = {"id",          "kind",       "status",       "message",
                                   "config_hash", "scene_hash", "program_hash", "command"};
 
+}  // namespace
+
+bool is_fixed_column(const std::string& name) { return std::ranges::find(kFixed, name) != std::end(kFixed); }
+
+namespace {
+
 std::vector<std::string> known_columns(const Merged& merged) {
   std::vector<std::string> names(std::begin(kFixed), std::end(kFixed));
   for (const Axis& axis : merged.axes) names.push_back(axis.name);
@@ -109,7 +115,7 @@ std::string left_out_text(const Table& table) {
 }  // namespace
 
 Cell cell_of(const Merged& merged, const Row& row, const std::string& column) {
-  if (std::ranges::find(kFixed, column) != std::end(kFixed)) return {fixed(row, column), {}};
+  if (is_fixed_column(column)) return {fixed(row, column), {}};
   if (const auto axis = std::ranges::find(row.axes, column, &Setting::name); axis != row.axes.end())
     return std::visit(ValueCell{}, axis->value);
   if (const auto number = row.metric(column)) return number_cell(*number);

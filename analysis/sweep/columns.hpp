@@ -18,6 +18,9 @@ struct TableOptions {
   std::size_t most = 0;              ///< most rows; 0: all
 };
 
+/// Whether every table has a column of this name beside those of the axes and metrics.
+bool is_fixed_column(const std::string& name);
+
 /// A cell: its full text, and its number if it is one.
 struct Cell {
   std::string text;

@@ -41,7 +41,15 @@ class Maker {
       }
     }
     for (const auto& subcommand : subcommands_) {
-      if (!flags_.contains(subcommand)) flags_[subcommand] = vocabulary.flags_of(subcommand);
+      try {
+        if (!flags_.contains(subcommand)) flags_[subcommand] = vocabulary.flags_of(subcommand);
+      } catch (const UserError& error) {
+        throw_input({.where = spec.file.string(),
+                     .what = fmt::format("unknown kind '{}'", subcommand),
+                     .expected = "a subcommand with a JSON result, see docs/plan.md",
+                     .got = {},
+                     .fix = error.parts().fix});
+      }
     }
     check_names();
   }
@@ -49,14 +57,16 @@ class Maker {
   /// Makes the case again from its settings.
   Case again(const Case& one) const { return case_of({.settings = one.settings, .axes = one.axes}); }
 
-  Made make() const {
+  Made make(const Progress& progress) const {
     Made made;
     made.plan.name = spec_.name;
     made.plan.title = spec_.title;
     made.plan.metrics = spec_.metrics;
     for (const Zip& zip : spec_.axes) made.plan.axes.insert(made.plan.axes.end(), zip.begin(), zip.end());
     std::map<std::string, std::string> seen;
-    for (std::size_t at = 0; at < count(); ++at) {
+    const std::size_t cases = count();
+    for (std::size_t at = 0; at < cases; ++at) {
+      if (progress) progress(at, cases);
       const Point point = this->point(at);
       Case one;
       try {
@@ -236,7 +246,9 @@ class Maker {
 
 }  // namespace
 
-Made make(const Spec& spec, const Vocabulary& vocabulary) { return Maker(spec, vocabulary).make(); }
+Made make(const Spec& spec, const Vocabulary& vocabulary, const Progress& progress) {
+  return Maker(spec, vocabulary).make(progress);
+}
 
 void require_made(const Plan& plan, const Vocabulary& vocabulary, const std::filesystem::path& file) {
   Vocabulary unchecked = vocabulary;

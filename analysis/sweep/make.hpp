@@ -6,6 +6,7 @@
 
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/spec.hpp"
+#include "base/progress.hpp"
 
 namespace fastsplat::plan {
 
@@ -26,7 +27,7 @@ struct Made {
 
 /// Throws UserError for a setting that no subcommand of the kinds takes, for identical cases, for combinations that the
 /// program refuses (unless they are left out), and for a plan without cases.
-Made make(const Spec& spec, const Vocabulary& vocabulary);
+Made make(const Spec& spec, const Vocabulary& vocabulary, const Progress& progress = {});
 
 /// Throws UserError (Input) that names `file` and the case unless each case has the steps that make() writes for its
 /// kind and settings. Otherwise a plan from elsewhere could run any command.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/sweep/columns.hpp"
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/suggest.hpp"
@@ -234,6 +235,7 @@ class Reader {
       refuse(*axis, fmt::format("axis = \"{}\" names the label column, but {} is also a setting", label, label),
              "a name different from all settings", "for example axis = \"view\"");
     }
+    refuse_column(table.contains("axis") ? *table.get("axis") : static_cast<const toml::node&>(table), label);
     Zip out;
     for (const Entry& entry : entries(table, "zip")) {
       if (entry.name == "axis") continue;
@@ -259,7 +261,15 @@ class Reader {
     return values;
   }
 
-  Metric metric(const toml::table& table) const {
+  /// A name of the specification's own must not stand for a column that results have anyway.
+  void refuse_column(const toml::node& node, const std::string& name) const {
+    if (!is_fixed_column(name) && std::ranges::find(known_metrics(), name, &Metric::name) == known_metrics().end())
+      return;
+    refuse(node, fmt::format("'{}' is a column of every result", name), "a name of its own",
+           fmt::format("for example \"my_{}\"", name));
+  }
+
+  Metric metric(const toml::table& table) {
     for (const auto& [key, node] : table) {
       const std::vector<std::string> known{"name", "title", "unit", "better", "path"};
       if (std::ranges::find(known, key.str()) == known.end())
@@ -269,7 +279,8 @@ class Reader {
     const auto path = text_of(table, "path"), name = text_of(table, "name");
     if (!path || path->empty() || !name || name->empty())
       refuse(table, "a metric needs a name and a path", "name = \"entries\", path = \"errors ranges/needs/...\"");
-    out.name = *name;
+    refuse_column(*table.get("name"), *name);
+    out.name = taken({*name, table.get("name")});
     out.path = *path;
     out.title = text_of(table, "title").value_or(out.name);
     out.unit = text_of(table, "unit").value_or("");

@@ -12,6 +12,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/plan_vocabulary.hpp"
+#include "cli/progress_bar.hpp"
 #include "cli/subcommands/subcommands.hpp"
 
 namespace fastsplat::cli {
@@ -45,7 +46,10 @@ std::vector<std::string> inputs_of(const PlanMakeArguments& arguments, const pla
 ExitCode run(const PlanMakeArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.spec}});
-  const auto made = plan::make(plan::read_spec(arguments.spec), plan_vocabulary());
+  const auto made = [&] {
+    ProgressBar bar("plan", watching(arguments.common));
+    return plan::make(plan::read_spec(arguments.spec), plan_vocabulary(), bar.callback());
+  }();
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = inputs_of(arguments, made.plan)});
   const auto json = plan::to_json(made.plan);
   if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");

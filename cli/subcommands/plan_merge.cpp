@@ -50,7 +50,8 @@ ExitCode run(const PlanMergeArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = {arguments.out, arguments.common.json}, .inputs = {arguments.plan.plan}});
   for (const auto& path : {arguments.out, arguments.common.json}) refuse_among_results(path, arguments.plan.folder());
-  const auto merged = plan::merge(plan::read_plan(arguments.plan.plan), arguments.plan.folder(),
+  const auto plan = plan::read_plan(arguments.plan.plan);
+  const auto merged = plan::merge(plan, arguments.plan.folder(),
                                   {.partial = arguments.partial, .allow_foreign = arguments.allow_foreign});
   const auto json = plan::to_json(merged);
   if (!arguments.out.empty()) write_text_file(arguments.out, json_text(json, 1) + "\n");
@@ -58,6 +59,11 @@ ExitCode run(const PlanMergeArguments& arguments) {
   if (!merged.missing.empty())
     output.warn(
         fmt::format("{} missing: the rows do not cover the whole plan", counted(merged.missing.size(), "result")));
+  for (const auto& metric : plan.metrics) {
+    const bool listed = metric.name.find('*') != std::string::npos;  // whose columns have names of their own
+    if (listed || std::ranges::find(merged.metrics, metric.name, &plan::Metric::name) != merged.metrics.end()) continue;
+    output.warn(fmt::format("metric {}: no result has a number at {}", metric.name, metric.path));
+  }
   output.json(json);
   return ExitCode::Pass;
 }

@@ -2,6 +2,7 @@
 // Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
 #include <gtest/gtest.h>
 
+#include "base/atomic_file.hpp"
 #include "tests/process/process_helper.hpp"
 
 namespace fastsplat::cli_test {
@@ -52,6 +53,10 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
     expect_error(fastsplat(words), 2, said);
   };
   refused({"--crop", "0..12,0..5,2..9"}, {"exceeds the volume", "0..11,0..11,0..11"});
+  // In a file it is an error of the file.
+  write_text_file(folder / "s.toml", "volume = \"shells:12\"\ncrop = \"0..12,0..5,2..9\"\n");
+  expect_error(fastsplat({"render", "--scene", folder / "s.toml", "-o", folder / "x.exr"}), 3,
+               {"s.toml:2:8: crop: the box exceeds the volume"});
   refused({"--crop", "5..2,0..5,2..9"}, {"--crop", "A..B,C..D,E..F"});
   refused({"--crop", "0..2,0..5"}, {"--crop"});
   refused({"--background", "2,0,0"}, {"--background", "0..1"});

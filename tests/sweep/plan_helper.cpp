@@ -44,6 +44,8 @@ std::vector<std::pair<std::string, std::string>> results_in(const fs::path& fold
 
 plan::Vocabulary vocabulary() {
   return {.flags_of = [](const std::string& subcommand) -> std::vector<std::string> {
+            if (subcommand == "cycls")
+              throw_usage({.where = {}, .what = "unknown subcommand", .expected = {}, .got = {}, .fix = {}});
             if (subcommand == "compare") return {"--json", "--min-psnr"};
             return {"--json", "--n", "--bad", "--config", "--set", "--volume"};
           },

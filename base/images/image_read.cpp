@@ -4,6 +4,8 @@
 #include <cstring>
 #include <new>
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/images/codec.hpp"
@@ -41,6 +43,28 @@ const char* format_of(std::span<const unsigned char> bytes) {
   return nullptr;
 }
 
+/// The name of a format that is recognised but not read; nullptr for none.
+const char* other_format_of(std::string_view bytes) {
+  static constexpr std::array<std::pair<std::string_view, const char*>, 10> kStarts{
+      {{"GIF8", "GIF"},
+       {"BM", "BMP"},
+       {"#?RADIANCE", "Radiance HDR"},
+       {"#?RGBE", "Radiance HDR"},
+       {"SDPX", "DPX"},
+       {"XPDS", "DPX"},
+       {"8BPS", "Photoshop"},
+       {"\xff\x0a", "JPEG XL"},
+       {"qoif", "QOI"},
+       {std::string_view("\0\0\0\x0cjP  ", 8), "JPEG 2000"}}};
+  for (const auto& [start, name] : kStarts) {
+    if (bytes.starts_with(start)) return name;
+  }
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "WebP";
+  const bool pnm = bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '7' &&
+                   (bytes[2] == '\n' || bytes[2] == ' ');
+  return pnm ? "PNM" : nullptr;
+}
+
 }  // namespace
 
 LoadedImage read_image(const std::filesystem::path& path) {
@@ -54,6 +78,8 @@ LoadedImage read_image(const std::filesystem::path& path) {
     const std::span bytes(reinterpret_cast<const unsigned char*>(file.data()), file.size());
     const char* format = format_of(bytes);
     if (format == nullptr) {
+      if (const char* other = other_format_of(file))
+        refuse({{}, "unsupported image format", "EXR, PNG, TIFF or JPEG", other, "convert it, for example to .png"});
       refuse({{}, "not an image", "EXR, PNG, TIFF or JPEG", {}, "name an image file, or write the file again"});
     }
     const bool png = std::strcmp(format, "png") == 0, exr = std::strcmp(format, "openexr") == 0;

@@ -86,16 +86,21 @@ std::string described_encoding(const images::LoadedImage& loaded) {
              : "declares no encoding and is read as linear values";
 }
 
+bool is_of_display_depth(const images::LoadedImage& picture) {
+  return picture.kind == images::PixelKind::Uint8 || picture.kind == images::PixelKind::Uint16;
+}
+
 /// Requires a display picture, as --srgb states; no file may declare otherwise.
 void require_looks(const std::string& file, const images::LoadedImage& picture) {
-  if (picture.kind != images::PixelKind::Uint8 && picture.kind != images::PixelKind::Uint16) {
+  if (!is_of_display_depth(picture)) {
     not_comparable(file,
                    fmt::format("holds {} values, but --srgb requires display pictures of 8 or 16 bits",
                                images::to_string(picture.kind)),
                    "leave --srgb out, and compare linear values with linear values");
   }
   if (!picture.encoding.empty() && picture.encoding != images::kSrgb)
-    not_comparable(file, described_encoding(picture) + ", which contradicts --srgb", "leave --srgb out");
+    not_comparable(file, described_encoding(picture) + ", which contradicts --srgb",
+                   "leave --srgb out, and compare pictures of one encoding");
 }
 
 bool opaque(const Image& image) {
@@ -112,9 +117,13 @@ void check_comparable(const CompareArguments& arguments, const images::LoadedIma
     require_looks(arguments.ref, ref);
     require_looks(arguments.test, test);
   } else if (images::encoding_of(ref) != images::encoding_of(test)) {
+    const auto may_be_srgb = [](const auto& picture) {
+      return is_of_display_depth(picture) && (picture.encoding.empty() || picture.encoding == images::kSrgb);
+    };
     not_comparable(arguments.ref,
                    fmt::format("{}, {} {}", described_encoding(ref), arguments.test, described_encoding(test)),
-                   "render both to .exr or .tif and compare those, or use --srgb if both are display pictures");
+                   std::string("render both to .exr or .tif and compare those") +
+                       (may_be_srgb(ref) && may_be_srgb(test) ? ", or use --srgb if both are display pictures" : ""));
   }
   const bool both_have_alpha = ref.image.channels == 4 && test.image.channels == 4;
   if (both_have_alpha && ref.unassociated != test.unassociated && !(opaque(ref.image) && opaque(test.image))) {

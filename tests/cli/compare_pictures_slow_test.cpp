@@ -58,7 +58,7 @@ TEST_F(ComparePictures, APngOfAnotherProgramIsForLooking) {
   const auto mixed = compare({folder_ / "ours.exr", theirs});
   EXPECT_EQ(mixed.code, 4);
   EXPECT_NE(mixed.err.find("is read as a display picture"), std::string::npos) << mixed.err;
-  EXPECT_NE(mixed.err.find("--srgb"), std::string::npos) << mixed.err;
+  EXPECT_EQ(mixed.err.find("--srgb"), std::string::npos) << "floats are no display picture: " << mixed.err;
 }
 
 TEST_F(ComparePictures, SrgbSaysThatBothAre) {
@@ -109,6 +109,7 @@ TEST_F(ComparePictures, WhatTheFilesDeclareMustAgree) {
   expect_success(compare({linear, linear}));
   const auto mixed = compare({linear, plain});
   expect_error(mixed, 4, {"linear.png: declares the encoding linear", "plain.png declares no encoding", "sRGB"});
+  EXPECT_EQ(mixed.err.find("--srgb"), std::string::npos) << "it would be refused: " << mixed.err;
   expect_error(compare({linear, linear, "--srgb"}), 4, {"declares the encoding linear, which contradicts --srgb"});
   expect_success(compare({plain, plain, "--srgb"}));
 }

@@ -312,6 +312,12 @@ TEST(ImageFile, RefusesPathsThatAreNoImages) {
   EXPECT_THAT(read_refusal(folder / "empty.exr"), HasSubstr("empty"));
   write_bytes(folder / "text.exr", "volume = \"shells\"\n");
   EXPECT_THAT(read_refusal(folder / "text.exr"), HasSubstr("not an image (expected EXR, PNG, TIFF or JPEG)"));
+  for (const auto& [start, name] :
+       {std::pair{"GIF89a", "GIF"}, {"BM6", "BMP"}, {"RIFF....WEBPVP8", "WebP"}, {"P6\n2 2\n", "PNM"}}) {
+    write_bytes(folder / "other.png", std::string(start) + std::string(60, ' '));
+    EXPECT_THAT(read_refusal(folder / "other.png"),
+                HasSubstr(std::string("unsupported image format (expected EXR, PNG, TIFF or JPEG, got ") + name));
+  }
   EXPECT_THAT(read_refusal("/dev/zero"), HasSubstr("/dev/zero"));
 }
 

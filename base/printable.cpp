@@ -18,8 +18,14 @@ std::size_t character(std::string_view text) {
   return 0;
 }
 
-/// U+0000 to U+001F, U+007F, and U+0080 to U+009F, which terminals obey as well.
+/// U+0000 to U+001F, U+007F, U+0080 to U+009F, which terminals obey as well, line ends (U+2028, U+2029), and marks that
+/// turn the direction of what follows (U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069).
 bool is_control(std::string_view character) {
+  if (character.size() == 3 && character[0] == '\xe2') {
+    const std::string_view rest = character.substr(1);
+    return (rest >= "\x80\xa8" && rest <= "\x80\xae") || rest == "\x80\x8e" || rest == "\x80\x8f" ||
+           (rest >= "\x81\xa6" && rest <= "\x81\xa9");
+  }
   const auto first = static_cast<unsigned char>(character[0]);
   if (character.size() == 1) return first < 0x20 || first == 0x7f;
   return character.size() == 2 && first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;

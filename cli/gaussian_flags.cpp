@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
@@ -121,7 +122,7 @@ cmodel::Config load_for_gaussians(const ConfigFlags& flags) {
 }
 
 std::string summary(const scene::GaussianScene& scene) {
-  return fmt::format("{}, {}, degree {}, {}x{} pixels", scene.cloud->name,
+  return fmt::format("{}, {}, degree {}, {}x{} pixels", printable(scene.cloud->name),
                      counted(scene.cloud->gaussians.size(), "Gaussian"), scene.cloud->degree, scene.camera.width(),
                      scene.camera.height());
 }

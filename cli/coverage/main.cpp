@@ -194,6 +194,7 @@ ExitCode run(const std::vector<std::string>& arguments) {
       if (book.config == input.book.config) input.book.merge(book);
     }
     tb::write_book(folder / (input.book.config + ".json"), input.book);
+    for (auto& finding : tb::classes_without_streams(input.book)) report.failures.push_back(std::move(finding));
     report.inputs.push_back(std::move(input));
   }
   report.closure = tb::close_coverage(plan, report.inputs, results);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/printable.hpp"
 #include "cli/common.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
@@ -128,7 +129,7 @@ std::string to_text(const volume::Volume& volume, const Values& values) {
       "type     {}\n"
       "spacing  {:g} x {:g} x {:g} mm\n"
       "extent   {:g} x {:g} x {:g} mm\n{}{}",
-      volume.name, volume.source, dims.x, dims.y, dims.z, grouped(volume.voxels.size()),
+      printable(volume.name), printable(volume.source), dims.x, dims.y, dims.z, grouped(volume.voxels.size()),
       volume::to_string(volume.stored), spacing.x, spacing.y, spacing.z, extent.x, extent.y, extent.z,
       values_text(volume, values), place_text(volume));
 }

@@ -41,6 +41,12 @@ TEST(Printable, EveryPairOfBytesBecomesVisibleUtf8) {
   std::printf("[figure] pairs = %d\n", checked);
 }
 
+TEST(Printable, WhatTurnsOrEndsALineIsEscaped) {
+  EXPECT_EQ(printable("a\u202egnp.b"), "a\\xe2\\x80\\xaegnp.b");
+  EXPECT_EQ(printable("a\u2028b\u2066c\u200fd"), "a\\xe2\\x80\\xa8b\\xe2\\x81\\xa6c\\xe2\\x80\\x8fd");
+  EXPECT_EQ(printable("\u2026 \u2020 \u00d7"), "\u2026 \u2020 \u00d7");
+}
+
 TEST(Printable, JsonKeepsItsMeaning) {
   EXPECT_EQ(without_controls("[\"a\xc2\x9b\x7f\xc2\xa9\xc3\x82\"]"), "[\"a\\u009b\\u007f\xc2\xa9\xc3\x82\"]");
   EXPECT_EQ(without_controls("\xc2"), "\xc2");

@@ -58,6 +58,8 @@ module fastsplat_fetch #(
   localparam logic [1:0] NONE = 2'd0, RESPONSE = 2'd1, VERDICT = 2'd2, COMMAND = 2'd3;
   `FASTSPLAT_INIT(burst, BURST >= 1 && BURST <= 128 && BURST <= (1 << DEPTH_LOG2), "BURST = %0d, not 1 to 128, or more than there is room for (%0d)", BURST, 1 << DEPTH_LOG2)
   `FASTSPLAT_INIT(outstanding, OUTSTANDING >= 2 && OUTSTANDING <= 1024, "OUTSTANDING = %0d, not 2 to %0d", OUTSTANDING, 1024)
+  `FASTSPLAT_INIT(depth, DEPTH_LOG2 >= 1 && DEPTH_LOG2 <= 16, "DEPTH_LOG2 = %0d, not 1 to %0d", DEPTH_LOG2, 16)
+  `FASTSPLAT_INIT(sets, SETS_LOG2 >= 1 && SETS_LOG2 <= 16, "SETS_LOG2 = %0d, not 1 to %0d", SETS_LOG2, 16)
   `FASTSPLAT_INIT(judged, JUDGED_LOG2 >= 3 && JUDGED_LOG2 <= 10, "JUDGED_LOG2 = %0d, not 3 to %0d", JUDGED_LOG2, 10)
   `FASTSPLAT_INIT(address, ADDRESS_BITS >= 16 && ADDRESS_BITS <= 64, "ADDRESS_BITS = %0d, not 16 to %0d", ADDRESS_BITS, 64)
 

@@ -13,7 +13,7 @@ for given in "" "-GBURST=1 -GDEPTH_LOG2=1 -GOUTSTANDING=2 -GSETS_LOG2=1 -GADDRES
 done
 # M-fetch-23: the defaults and the ends of the ranges above are taken, what lies beyond is not.
 refused=0
-for given in -GBURST=0 -GBURST=129 "-GBURST=16 -GDEPTH_LOG2=3" -GOUTSTANDING=1 -GOUTSTANDING=2000 -GADDRESS_BITS=15 -GADDRESS_BITS=65; do
+for given in -GBURST=0 -GBURST=129 "-GBURST=16 -GDEPTH_LOG2=3" -GOUTSTANDING=1 -GOUTSTANDING=2000 -GADDRESS_BITS=15 -GADDRESS_BITS=65 -GSETS_LOG2=0 -GSETS_LOG2=32 "-GBURST=1 -GDEPTH_LOG2=0" -GDEPTH_LOG2=17; do
   if lint $given; then echo "read_fetch.sh: takes '$given'"; exit 1; fi
   grep -q 'not [0-9]* to [0-9]*' "$work/lint.log" || { cat "$work/lint.log"; echo "read_fetch.sh: '$given' is refused for another reason"; exit 1; }
   refused=$((refused + 1))

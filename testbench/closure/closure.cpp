@@ -90,6 +90,15 @@ void check_mapping(const VerificationPlan& plan, const std::vector<ClosureInput>
 
 }  // namespace
 
+std::vector<std::string> classes_without_streams(const CoverageBook& book) {
+  std::vector<std::string> findings;
+  for (const StimulusClass which : stimulus_classes()) {
+    if (!book.campaigns.contains(to_string(which)))
+      findings.push_back(book.config + ": no streams of class " + to_string(which));
+  }
+  return findings;
+}
+
 Closure close_coverage(const VerificationPlan& plan, const std::vector<ClosureInput>& inputs,
                        const std::map<std::string, bool>& results) {
   Closure out;

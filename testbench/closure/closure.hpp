@@ -45,6 +45,9 @@ struct ClosureInput {
   Coverage planned;  ///< every bin that has to be hit (planned_bins, and cover points where they were collected)
 };
 
+/// A finding for each stimulus class of which the book has no streams.
+std::vector<std::string> classes_without_streams(const CoverageBook& book);
+
 /// `results`: names of tests that ran, as ctest knows them, and whether they passed. If it is empty, tests are ignored.
 /// Otherwise a testpoint that has only tests needs one that passed.
 Closure close_coverage(const VerificationPlan& plan, const std::vector<ClosureInput>& inputs,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -83,10 +84,17 @@ std::string wave_view(const std::string& waveform, std::istream& ports, const st
       add(units, unit, signal);
     }
   }
-  std::string text = fmt::format("{}\n[dumpfile] \"{}\"\n[size] 1600 1000\n[sst_width] 250\n[signals_width] 320\n",
-                                 kWaveViewMark, waveform);
-  // Zoom, then the marker: a cycle begins at its rising edge (VerilatedDevice::dump).
-  if (focus) text += fmt::format("*-4.0 {}\n", 2 * focus->cycle + 1);
+  // Where the save file was tells GTKWave where the waveform is: beside it, from whatever folder it is opened.
+  std::string text =
+      fmt::format("{}\n[dumpfile] \"{}\"\n[savefile] \"{}\"\n[size] 1600 1000\n[sst_width] 250\n[signals_width] 320\n",
+                  kWaveViewMark, waveform, std::filesystem::path(waveform).replace_extension(".gtkw").string());
+  if (focus) {
+    // A cycle begins at its rising edge (VerilatedDevice::dump). Zoom, then the marker; some cycles before it are in
+    // view.
+    constexpr std::uint64_t kBefore = 40;
+    const std::uint64_t marker = 2 * focus->cycle + 1;
+    text += fmt::format("[timestart] {}\n*-4.0 {}\n", marker - std::min(marker, kBefore), marker);
+  }
   if (!first.signals.empty()) text += text_of(first, true);
   for (const auto& group : top) text += text_of(group, true);
   for (const auto& group : units) text += text_of(group, false);

@@ -124,11 +124,11 @@ void TapAssembly::window(const RawTap& tap) {
   emit(cmodel::Tap::Footprint, tap.cycle, sheet_of(tap.tag), tap.tag, at, {payload_.data(), banks_});
 }
 
-void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin, int halo) {
+void TapAssembly::arrange(Place at, const cmodel::BeginTile& begin, int shown) {
   const int mask = lanes_ - 1, halo = halo_of(begin);
   // A window that crosses the tile's edge keeps 0 where nothing is copied.
-  const int left = std::clamp(-halo - at.x, 0, lanes_), right = std::clamp(begin.width + halo - at.x, 0, lanes_);
-  const int top = std::clamp(-halo - at.y, 0, lanes_), bottom = std::clamp(begin.height + halo - at.y, 0, lanes_);
+  const int left = std::clamp(-shown - at.x, 0, lanes_), right = std::clamp(begin.width + shown - at.x, 0, lanes_);
+  const int top = std::clamp(-shown - at.y, 0, lanes_), bottom = std::clamp(begin.height + shown - at.y, 0, lanes_);
   if (right - left < lanes_ || bottom - top < lanes_) std::ranges::fill(payload_, 0);
   for (int j = top; j < bottom; ++j) {
     const std::uint32_t* row = &banked_[kWords * static_cast<std::size_t>((at.y + halo + j) & mask) * lanes_];

@@ -64,7 +64,7 @@ class TapAssembly final : public RawTapSink {
   Window next_window();
   /// The banks of a window at `at`, their four words each, in the order of its pixels; 0 for those outside of the tile
   /// and its halo of so many pixels.
-  void arrange(Place at, const cmodel::BeginTile& begin, int halo = 0);
+  void arrange(Place at, const cmodel::BeginTile& begin, int shown = 0);
   void emit(cmodel::Tap tap, std::uint64_t cycle, std::uint32_t sheet, std::uint32_t tag, Place at,
             std::span<const std::uint32_t> payload);
 

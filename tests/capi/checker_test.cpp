@@ -106,6 +106,17 @@ TEST(CapiChecker, NamesWhatIsWrongFirst) {
   }
 }
 
+TEST(CapiChecker, ARefusedStreamNamesItself) {
+  const Config config("tiny");
+  const Checker checker(config);
+  EXPECT_EQ(fastsplat_checker_start(checker.handle, kFirstBeat), FASTSPLAT_OK);
+  const cmodel::Beat wrong{0xdeadbeef};
+  EXPECT_EQ(fastsplat_checker_took(checker.handle, wrong.data(), 1), FASTSPLAT_INPUT);
+  const std::string first = fastsplat_checker_first_mismatch(checker.handle);
+  std::printf("[figure] refused stream = %s\n", first.c_str());
+  EXPECT_NE(first.find("0xef"), std::string::npos) << first;
+}
+
 /// As SystemVerilog tells it: each argument of a port gets to where it is compared.
 TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
   using testbench::RawPort;

@@ -261,11 +261,19 @@ class Reader {
     return values;
   }
 
-  /// A name of the specification's own must not stand for a column that results have anyway.
+  /// Whether the program's metric has this name; `*` in its own stands for any text.
+  static bool names(const Metric& metric, std::string_view name) {
+    const auto star = metric.name.find('*');
+    if (star == std::string::npos) return metric.name == name;
+    const std::string_view own = metric.name, before = own.substr(0, star), after = own.substr(star + 1);
+    return name.size() > before.size() + after.size() && name.starts_with(before) && name.ends_with(after);
+  }
+
+  /// Refuses a label or metric that would hide a column of the program's own.
   void refuse_column(const toml::node& node, const std::string& name) const {
-    if (!is_fixed_column(name) && std::ranges::find(known_metrics(), name, &Metric::name) == known_metrics().end())
-      return;
-    refuse(node, fmt::format("'{}' is a column of every result", name), "a name of its own",
+    const bool known = std::ranges::any_of(known_metrics(), [&](const Metric& metric) { return names(metric, name); });
+    if (!known && !is_fixed_column(name)) return;
+    refuse(node, fmt::format("'{}' is the name of a built-in column", name), "another name",
            fmt::format("for example \"my_{}\"", name));
   }
 

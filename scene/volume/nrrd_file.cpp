@@ -10,9 +10,10 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <optional>
-#include <regex>
 #include <sstream>
+#include <string_view>
 
 #include "base/lower_case.hpp"
 #include "base/read_file.hpp"
@@ -94,11 +95,12 @@ TeemError teem_error() {
   std::string field, cause;
   std::istringstream lines(text ? text.get() : "");
   for (std::string line; std::getline(lines, line);) {
-    static const std::regex kFunction(R"(^\s*\[nrrd\] _?nrrd(ReadNrrdParse_)?(\w+): (.*)$)");
-    std::smatch part;
-    if (std::regex_match(line, part, kFunction)) {
-      if (part[1].matched) field = part[2].str();
-      line = part[3].str();
+    const auto bracket = line.find("] "), colon = line.find(": ");
+    if (bracket != std::string::npos && colon != std::string::npos && colon > bracket) {
+      constexpr std::string_view kParse = "ReadNrrdParse_";
+      const std::string function = line.substr(bracket + 2, colon - bracket - 2);
+      if (const auto at = function.find(kParse); at != std::string::npos) field = function.substr(at + kParse.size());
+      line = line.substr(colon + 2);
     }
     if (!trimmed(line).empty()) cause = trimmed(line);
   }
@@ -294,12 +296,14 @@ double spacing_of(const TextHeader& header, const Nrrd& nrrd, unsigned axis) {
   return (info.max - info.min) / static_cast<double>(info.size - (node ? std::min<std::size_t>(1, info.size - 1) : 0));
 }
 
-/// Refuses a spacing beside a direction that has another length; mm or the header's unit.
-void refuse_other_spacing(const TextHeader& header, const Nrrd& nrrd, unsigned axis, double length) {
+/// Refuses a spacing beside a direction that has another length.
+void refuse_other_spacing(const TextHeader& header, const Nrrd& nrrd, unsigned axis) {
   constexpr double kRounding = 1e-3;
   const Field* const spacings = header.find({"spacings"});
   if (spacings == nullptr) return;
   const double spacing = header.numbers(*spacings, nrrd.dim)[axis];
+  const double* const direction = nrrd.axis[axis].spaceDirection;
+  const double length = std::sqrt(std::inner_product(direction, direction + nrrd.spaceDim, direction, 0.0));
   if (std::isnan(spacing) || std::abs(spacing - length) <= kRounding * length) return;
   header.refuse(spacings->line, fmt::format("axis {} has a spacing and a space direction of another length", axis + 1),
                 fmt::format("{:g}, or no spacings", length), fmt::format("{:g}", spacing), "correct the header");
@@ -354,7 +358,7 @@ Geometry geometry_of(const TextHeader& header, const Nrrd& nrrd, const std::arra
         if (world < 3) directions[a][static_cast<int>(world)] = along;
       }
       declared = std::sqrt(square);
-      refuse_other_spacing(header, nrrd, axes[a], declared);
+      refuse_other_spacing(header, nrrd, axes[a]);
     } else {
       declared = spacing_of(header, nrrd, axes[a]) * known_unit(info.units, geometry);
     }

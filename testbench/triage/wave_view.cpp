@@ -43,8 +43,8 @@ std::string_view group_of(std::string_view port) {
   return "clock, reset, events";
 }
 
-/// The group of a port of an instance below fastsplat_dut; empty for those that are in no group of their own.
-std::string group_below(const std::string& instance) {
+/// The unit whose ports are a group: an instance directly below the core. Empty for other instances.
+std::string unit_of(const std::string& instance) {
   if (!instance.starts_with(kCore)) return {};
   const std::string unit = instance.substr(kCore.size());
   return unit.find('.') == std::string::npos ? unit : std::string{};
@@ -80,11 +80,11 @@ std::string wave_view(const std::string& waveform, std::istream& ports, const st
     if (!first.name.empty() && instance == focus->instance) first.signals.push_back(signal);
     if (instance.empty()) {
       add(top, std::string(group_of(path)), signal);
-    } else if (const auto unit = group_below(instance); !unit.empty()) {
+    } else if (const auto unit = unit_of(instance); !unit.empty()) {
       add(units, unit, signal);
     }
   }
-  // Where the save file was tells GTKWave where the waveform is: beside it, from whatever folder it is opened.
+  // GTKWave finds the waveform by its place relative to the save file, whatever folder it is started in.
   std::string text =
       fmt::format("{}\n[dumpfile] \"{}\"\n[savefile] \"{}\"\n[size] 1600 1000\n[sst_width] 250\n[signals_width] 320\n",
                   kWaveViewMark, waveform, std::filesystem::path(waveform).replace_extension(".gtkw").string());

@@ -10,7 +10,8 @@ namespace fastsplat {
 namespace {
 
 TEST(NumberText, WholeWordsAreNumbers) {
-  for (const char* text : {"", "+", "0x10", "1e", "3 ", " 3", "1.2.3", "--1"}) EXPECT_EQ(double_from(text), std::nullopt) << text;
+  for (const char* text : {"", "+", "0x10", "1e", "3 ", " 3", "1.2.3", "--1"})
+    EXPECT_EQ(double_from(text), std::nullopt) << text;
   for (const auto& [text, value] : {std::pair{"+1.5", 1.5}, {"-2e3", -2000.0}, {".5", 0.5}, {"7.", 7.0}})
     EXPECT_EQ(number_from(text), value) << text;
   EXPECT_TRUE(std::isnan(*double_from("nan")));
@@ -23,6 +24,7 @@ TEST(NumberText, BeyondADoubleIsZeroOrInfinite) {
   for (const auto& [text, value] : {std::pair<std::string, double>{"1e-400", 0.0},
                                     {"-1e-400", 0.0},
                                     {"1e-9999", 0.0},
+                                    {"-1E-9999", 0.0},
                                     {"0." + zeros + "1", 0.0},
                                     {"4.9e-324", 4.9e-324},
                                     {"1e400", HUGE_VAL},

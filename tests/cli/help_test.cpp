@@ -28,7 +28,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Goes through every flag of every subcommand and counts those that `is_there` finds.
+/// Counts the flags of all subcommands that `is_there` finds.
 template <class IsThere>
 void every_flag(const char* where, const IsThere& is_there) {
   int subcommands = 0, flags = 0, missing = 0;
@@ -57,7 +57,7 @@ TEST(Help, DescriptionsAreWhatTheVerbsDeclare) {
     EXPECT_EQ(all[at + 1].summary, all_subcommands()[at].summary);
     EXPECT_EQ(all[at + 1].group, all_subcommands()[at].declare == nullptr);
   }
-  // What CLI11 tells of a subcommand names every flag; so that a flag declared past the descriptions is seen.
+  // CLI11's own list of flags: a flag declared without a description shows.
   for (const Description& subcommand : all) {
     std::istringstream names(subcommand.name);
     const Words words{std::istream_iterator<std::string>(names), {}};

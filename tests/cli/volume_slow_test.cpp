@@ -105,6 +105,19 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   std::printf("[figure] spacings_said = %d\n", said + 1);
 }
 
+TEST(VolumeVerbs, ANameWithALineEndIsOneLine) {
+  const TempFolder folder;
+  const auto path = folder.write(
+      "a\nb.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n");
+  for (const Words& words :
+       {Words{"volume", "info", path}, Words{"cycles", "--volume", path, "--size", "8", "--config", "tiny"}}) {
+    const Result result = fastsplat(words);
+    expect_success(result);
+    EXPECT_NE(result.out.find("a b.nrrd"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("\nb.nrrd"), std::string::npos) << result.out;
+  }
+}
+
 TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
   const TempFolder folder;
   std::string header = "NRRD0004\ntype: short\ndimension: 3\nsizes: 10 10 10\nencoding: ascii\n\n", numbers;

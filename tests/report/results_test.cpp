@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results told apart: each subcommand's sentence, and one line for what is no result.
+// Each subcommand's result gets its sentence; any other file is one error line.
 #include "report/results.hpp"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/paths.hpp"
@@ -28,6 +29,12 @@ GaussianCloud of_degree(const GaussianCloud& from, int degree) {
     out.harmonics.insert(out.harmonics.end(), some.begin(), some.end());
   }
   return out;
+}
+
+TEST(GaussianFiles, AVolumeIsNamedAsOne) {
+  const TestFile file(".nrrd", "NRRD0004\ntype: uint8\n");
+  EXPECT_THAT([&] { load_gaussians(file.path()); },
+              ::testing::ThrowsMessage<UserError>(::testing::HasSubstr("give it with --volume")));
 }
 
 TEST(GaussianPly, EveryFormatTypeAndDegree) {

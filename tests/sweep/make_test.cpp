@@ -99,11 +99,13 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
        "spec.toml:5:8: axis = \"n\" names the label column"},
       // A name of the specification's own must not hide a figure.
       {"kind = \"cycles\"\n[[zip]]\naxis = \"cycles\"\nlabel = [1]\nn = [1]\n",
-       "spec.toml:3:8: 'cycles' is a column of every result"},
-      {"kind = \"cycles\"\n[[zip]]\naxis = \"status\"\nlabel = [1]\nn = [1]\n", "'status' is a column"},
+       "spec.toml:3:8: 'cycles' is the name of a built-in column"},
+      {"kind = \"cycles\"\n[[zip]]\naxis = \"status\"\nlabel = [1]\nn = [1]\n",
+       "'status' is the name of a built-in column"},
       {"kind = \"cycles\"\n[axes]\nn = [1]\n[[metrics]]\nname = \"cycles\"\npath = \"cycles/x\"\n",
-       "spec.toml:5:8: 'cycles' is a column of every result"},
+       "spec.toml:5:8: 'cycles' is the name of a built-in column"},
       {"kind = \"cycles\"\n[axes]\nn = [1]\n[[metrics]]\nname = \"n\"\npath = \"cycles/x\"\n", "n is set twice"},
+      {"kind = \"cycles\"\n[[zip]]\naxis = \"cycles_input\"\nlabel = [1]\nn = [1]\n", "'cycles_input' is the name"},
       {"kind = \"cycls\"\n[axes]\nn = [1]\n", "spec.toml: unknown kind 'cycls'"},
       {"kind = \"cycles\"\n[axes]\nn = [1\n", "not valid TOML"},
   };

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "analysis/sweep/plan.hpp"
 #include "tests/paths.hpp"
 #include "tests/process/process_helper.hpp"
 
@@ -196,6 +197,42 @@ TEST_F(PlanDisturbed, ByForgedSteps) {
   const auto forged = folder_.write("forged.json", json.dump(1));
   expect_error(fastsplat({"plan", "run", forged}), 3, {"was changed"});
   EXPECT_FALSE(fs::exists(folder_ / "stolen.nrrd"));
+}
+
+/// The same with every hash computed again.
+TEST(PlanProgram, AForgedStepIsAnErrorOfItsFile) {
+  const TempFolder folder;
+  plan::Plan plan;
+  plan.axes = {{.name = "size", .values = {std::int64_t{8}}}};
+  plan.cases = {{.id = {},
+                 .axes = {{"size", std::int64_t{8}}},
+                 .kind = "cycles",
+                 .settings = {{"size", std::int64_t{8}}, {"volume", std::string("shells:8")}},
+                 .content = {},
+                 .steps = {{.words = {"volume", "convert", "shells:8", folder / "stolen.nrrd"}}}}};
+  plan.cases[0].id = plan::id_of(plan.cases[0]);
+  const auto forged = folder.write("forged.json", plan::to_json(plan).dump(1));
+  expect_error(fastsplat({"plan", "run", forged}), 3, {"forged.json", "was not written by `fastsplat plan make`"});
+  EXPECT_FALSE(fs::exists(folder / "stolen.nrrd"));
+}
+
+TEST(PlanProgram, WhatIsWrongInASpecificationIsSaidTruly) {
+  const TempFolder folder;
+  const auto make = [&](const std::string& spec) {
+    return fastsplat({"plan", "make", folder.write("s.toml", spec), "-o", folder / "p.json"});
+  };
+  expect_error(make("kind = \"cycls\"\n[axes]\nsize = [8]\n"), 3,
+               {"s.toml: unknown kind 'cycls'", "did you mean 'cycles'?"});
+  const auto bad = make("kind = \"cycles\"\n[constants]\nvolume = \"shells:8\"\n[axes]\nazimuth = [\"x\"]\n");
+  expect_error(bad, 3, {"azimuth=x", "`fastsplat render --help` lists flags"});
+
+  expect_success(
+      make("kind = \"cycles\"\n[constants]\nvolume = \"shells:8\"\nconfig = \"tiny\"\n[axes]\nsize = [8]\n"
+           "[[metrics]]\nname = \"nothing\"\npath = \"cycles/none\"\n"));
+  expect_success(fastsplat({"plan", "run", folder / "p.json"}));
+  const auto merge = fastsplat({"plan", "merge", folder / "p.json", "-o", folder / "m.json"});
+  expect_success(merge);
+  EXPECT_THAT(merge.err, HasSubstr("metric nothing: no result has a number at cycles/none"));
 }
 
 TEST(PlanProgram, ARowsCommandMakesItAgain) {

@@ -184,7 +184,7 @@ TEST_F(Nifti, AQformThatIsNoRotationIsNotUsed) {
     }
     EXPECT_TRUE(load({.version = version, .qform = 1, .quaternion = {0, 0, 1.00001}}, kBytes).placed);
   }
-  std::printf("[figure] qforms that are no rotation = %d\n", unusable);
+  std::printf("[figure] invalid qforms not used = %d\n", unusable);
 }
 
 TEST_F(Nifti, ScalingIsNotHalfApplied) {

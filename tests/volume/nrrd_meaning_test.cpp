@@ -81,6 +81,7 @@ TEST_F(NrrdMeaning, WhatASpaceLacksIsSaid) {
 TEST_F(NrrdMeaning, ASpacingBesideADirectionSaysTheSame) {
   const std::string lines = "dimension: 3\nsizes: 4 3 2\nspace: LPS\nspace directions: (2,0,0) (0,3,0) (0,0,4)\n";
   EXPECT_EQ(load(lines + "spacings: 2 3 nan\n").spacing, glm::dvec3(2, 3, 4));
+  EXPECT_EQ(load(lines + "spacings: 2 3 4\nspace units: \"cm\" \"cm\" \"cm\"\n").spacing, glm::dvec3(20, 30, 40));
   EXPECT_THAT(refused(lines + "spacings: 2 9 4\n"),
               HasSubstr("v.nrrd:8: axis 2 has a spacing and a space direction of another length (expected 3"));
 }

@@ -40,6 +40,8 @@ TEST_F(VolumeName, FilesAndFolders) {
   EXPECT_THAT(message((folder_ / "none.nrrd").string()), HasSubstr("no such file"));
   EXPECT_THAT(message(write("empty.nii", "").string()), HasSubstr("empty"));
   EXPECT_THAT(message(write("text.nii", "hello").string()), HasSubstr("NRRD, NIfTI or MetaImage"));
+  EXPECT_THAT(message(write("gaussians.ply", "ply\nformat ascii 1.0\n").string()), HasSubstr("with --gaussians"));
+  EXPECT_THAT(message(write("alone.img", "hello").string()), HasSubstr("put the .hdr beside it"));
   if (::geteuid() == 0) {
     std::printf("[figure] permission denied: not tried, root may read everything\n");
   } else {

@@ -49,6 +49,7 @@ TEST_P(RoundTrip, KeepsEveryVoxelAndTheSpacing) {
   EXPECT_EQ(in.min, out.min);
   EXPECT_EQ(in.max, out.max);
   EXPECT_EQ(in.name, path.string());
+  EXPECT_FALSE(in.placed) << "a file must not invent a placement";
   const Volume header = read_volume_header(path.string());
   EXPECT_EQ(header.dims, out.dims);
   EXPECT_EQ(header.spacing, out.spacing);

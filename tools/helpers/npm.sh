@@ -19,8 +19,8 @@ npm_into() {
   local folder=$1 lists=$2 stamp
   stamp=$(cksum <"$lists/package-lock.json")
   [[ -f $folder/.installed && $(<"$folder/.installed") == "$stamp" ]] && return
-  cp -- "$lists/package.json" "$lists/package-lock.json" "$lists/.npmrc" "$folder"
-  if ! (cd -- "$folder" && npm ci --no-update-notifier >npm.log 2>&1); then
+  cp -- "$lists/package.json" "$lists/package-lock.json" "$folder"
+  if ! (cd -- "$folder" && npm ci --no-update-notifier --no-fund --no-audit >npm.log 2>&1); then
     grep -qE 'ENOTFOUND|CERT_|_CERT|ECONNREFUSED|ECONNRESET|ETIMEDOUT|EAI_AGAIN|ENETUNREACH|ENOTCACHED' "$folder/npm.log" &&
       skip "npm cannot reach its registry: see $folder/npm.log"
     cat -- "$folder/npm.log" >&2

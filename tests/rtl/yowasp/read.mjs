@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: node read_yowasp.mjs FOLDER SOURCE_DIR PACKAGE...: the newest Yosys (@yowasp/yosys, npm, installed in FOLDER) reads
+// usage: node read.mjs FOLDER SOURCE_DIR PACKAGE...: the newest Yosys (@yowasp/yosys, npm, installed in FOLDER) reads
 // every file of rtl/ by itself and elaborates fastsplat_top and fastsplat_fetch with the package of each configuration.
 import { readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -34,12 +34,12 @@ for (const path of packages) {
                      { stdout: take, stderr: take });
     } catch (error) {
       console.log(log.split('\n').slice(-8).join('\n'));
-      console.log(`read_yowasp.mjs: ${relative('.', path)}: Yosys ${version} refuses ${top}: ${error.message}`);
+      console.log(`read.mjs: ${relative('.', path)}: Yosys ${version} refuses ${top}: ${error.message}`);
       process.exit(1);
     }
     const found = log.match(/.*(implicit|used before).*/i);
     if (found !== null || !/cells/.test(log)) {
-      console.log(`read_yowasp.mjs: ${relative('.', path)}, ${top}: ${found === null ? 'nothing was read' : found[0]}`);
+      console.log(`read.mjs: ${relative('.', path)}, ${top}: ${found === null ? 'nothing was read' : found[0]}`);
       process.exit(1);
     }
     ++read;

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/shading.hpp"
+#include "scene/transfer_function.hpp"
 
 namespace fastsplat::scene {
 
@@ -33,6 +35,41 @@ struct GridPart {
 /// above the volume's least value has an extinction, namely its height above it, as a fraction of the range, divided by
 /// the slab's width W. A slab's sums are then densities from 0 (the least value) to about 1 (the largest).
 enum class SplatKind { Colours, Densities };
+
+/// Makes the splats of single voxels, with the grid's slices as Traversal counts them.
+class VoxelSplats {
+ public:
+  /// The scene must outlive this object.
+  explicit VoxelSplats(const Scene& scene, SplatKind kind = SplatKind::Colours);
+  /// The extinction of a splat with this value, and its material; 0: the voxel has no splat.
+  float extinction(float value, Material& material) const {
+    if (kind_ == SplatKind::Densities) {
+      material = Material{};
+      return static_cast<float>((static_cast<double>(value) - least_) * density_);
+    }
+    material = classify_(value);
+    return material.extinction * opacity_scale_;
+  }
+  /// Whether no voxel with a value of [low, high] has a splat.
+  bool none(float low, float high) const {
+    return kind_ == SplatKind::Densities ? !(high > least_) : classify_.transparent(low, high);
+  }
+  int slice_axis() const { return slice_axis_; }
+  int slice(const glm::ivec3& at) const { return ascending_ ? at[slice_axis_] : last_slice_ - at[slice_axis_]; }
+  /// The splat of a voxel at `position`, with what extinction() returned.
+  Splat operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material, float extinction) const;
+
+ private:
+  const Scene& scene_;
+  SplatKind kind_;
+  Classifier classify_;
+  Shader shade_;
+  double least_, density_;
+  float opacity_scale_;
+  bool textured_, shaded_;
+  int slice_axis_, last_slice_;
+  bool ascending_;
+};
 
 /// Every voxel with extinction > 0, slice by slice along the volume axis most parallel to the view direction, nearest
 /// slice first; inside a slice by the remaining axes, also nearest first. The order is a function of the scene only.

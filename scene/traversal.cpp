@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "scene/shading.hpp"
 #include "scene/splats.hpp"
 
 namespace fastsplat::scene {
@@ -43,19 +42,40 @@ std::array<Walk, 3> walk_order(const Scene& scene) {
 
 }  // namespace
 
+VoxelSplats::VoxelSplats(const Scene& scene, SplatKind kind)
+    : scene_(scene),
+      kind_(kind),
+      classify_(scene.transfer_function, *scene.volume),
+      shade_(scene.shading, scene.camera, *scene.volume),
+      least_(scene.volume->min),
+      density_(1.0 / ((static_cast<double>(scene.volume->max) - scene.volume->min) * scene.description.slab_width)),
+      opacity_scale_(static_cast<float>(scene.description.opacity_scale)),
+      textured_(scene.description.texture.kind != SolidKind::None &&
+                scene.description.texture.where == TextureWhere::Voxel),
+      shaded_(scene.shading.on && kind == SplatKind::Colours) {
+  const Walk slices = walk_along(dominant_axis(scene), scene);
+  slice_axis_ = slices.axis;
+  last_slice_ = slices.extent - 1;
+  ascending_ = slices.ascending;
+}
+
+Splat VoxelSplats::operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material,
+                              float extinction) const {
+  glm::vec3 colour = material.colour;
+  if (textured_) colour *= glm::vec3(tint(scene_.description.texture, position));
+  if (shaded_) colour = shade_(colour, at.x, at.y, at.z);
+  return {.position = glm::vec3(position),
+          .emission = glm::min(colour * extinction, glm::vec3(extinction)),
+          .extinction = extinction,
+          .sheet = static_cast<std::uint16_t>(slice(at))};
+}
+
 struct Traversal::State {
   const Scene& scene;
-  Classifier classify;
-  Shader shade;
+  VoxelSplats splat;
   std::array<Walk, 3> order;
-  SplatKind kind;
 
-  State(const Scene& of, SplatKind what)
-      : scene(of),
-        classify(of.transfer_function, *of.volume),
-        shade(of.shading, of.camera, *of.volume),
-        order(walk_order(of)),
-        kind(what) {}
+  State(const Scene& of, SplatKind what) : scene(of), splat(of, what), order(walk_order(of)) {}
 
   template <class Each, class EndRow>
   void walk(const GridPart& part, Each each, EndRow end_row) const;
@@ -68,16 +88,13 @@ int Traversal::slices() const { return state_->order[0].extent; }
 int Traversal::rows() const { return state_->order[1].extent; }
 int Traversal::columns() const { return state_->order[2].extent; }
 
-/// Calls each(at, slice, line, material, extinction) for every non-empty voxel of the part, end_row() after each row.
+/// Calls each(at, line, material, extinction) for every non-empty voxel of the part, end_row() after each row.
 template <class Each, class EndRow>
 void Traversal::State::walk(const GridPart& part, Each each, EndRow end_row) const {
   // Local copies: members would be reloaded for every voxel, since other code might write to them.
-  const Classifier classifier = classify;
+  const VoxelSplats voxel = splat;
   const std::array<Walk, 3> axes = order;
   const volume::Volume& volume = *scene.volume;
-  const float opacity_scale = static_cast<float>(scene.description.opacity_scale);
-  const bool densities = kind == SplatKind::Densities;
-  const double density = 1.0 / ((static_cast<double>(volume.max) - volume.min) * scene.description.slab_width);
   glm::ivec3 at;
   for (int slice = part.first_slice; slice < part.end_slice; ++slice) {
     at[axes[0].axis] = axes[0].index(slice);
@@ -85,12 +102,9 @@ void Traversal::State::walk(const GridPart& part, Each each, EndRow end_row) con
       at[axes[1].axis] = axes[1].index(row);
       for (int step = 0; step < axes[2].extent; ++step) {
         at[axes[2].axis] = axes[2].index(step);
-        const float value = volume.at(at.x, at.y, at.z);
-        const Material material = densities ? Material{} : classifier(value);
-        const float extinction = densities ? static_cast<float>((static_cast<double>(value) - volume.min) * density)
-                                           : material.extinction * opacity_scale;
-        if (extinction > 0.0f)
-          each(at, slice, static_cast<std::uint32_t>(row * axes[2].extent + step), material, extinction);
+        Material material;
+        const float extinction = voxel.extinction(volume.at(at.x, at.y, at.z), material);
+        if (extinction > 0.0f) each(at, static_cast<std::uint32_t>(row * axes[2].extent + step), material, extinction);
       }
       end_row();
     }
@@ -100,30 +114,18 @@ void Traversal::State::walk(const GridPart& part, Each each, EndRow end_row) con
 std::size_t Traversal::count(const GridPart& part) const {
   std::size_t splats = 0;
   state_->walk(
-      part, [&splats](const glm::ivec3&, int, std::uint32_t, const Material&, float) { ++splats; }, [] {});
+      part, [&splats](const glm::ivec3&, std::uint32_t, const Material&, float) { ++splats; }, [] {});
   return splats;
 }
 
 void Traversal::visit(const GridPart& part, const Visit& visit) const {
-  const Scene& scene = state_->scene;
-  const Shader shade = state_->shade;
-  const volume::Volume& volume = *scene.volume;
-  const Texture& texture = scene.description.texture;
-  const bool textured = texture.kind != SolidKind::None && texture.where == TextureWhere::Voxel;
-  const bool shaded = scene.shading.on && state_->kind == SplatKind::Colours;
+  const volume::Volume& volume = *state_->scene.volume;
   std::vector<Splat> splats;
   std::vector<std::uint32_t> lines;
   state_->walk(
       part,
-      [&](const glm::ivec3& at, int slice, std::uint32_t line, const Material& material, float extinction) {
-        const glm::dvec3 position = volume.position(at.x, at.y, at.z);
-        glm::vec3 colour = material.colour;
-        if (textured) colour *= glm::vec3(tint(texture, position));
-        if (shaded) colour = shade(colour, at.x, at.y, at.z);
-        splats.push_back({.position = glm::vec3(position),
-                          .emission = glm::min(colour * extinction, glm::vec3(extinction)),
-                          .extinction = extinction,
-                          .sheet = static_cast<std::uint16_t>(slice)});
+      [&](const glm::ivec3& at, std::uint32_t line, const Material& material, float extinction) {
+        splats.push_back(state_->splat(at, volume.position(at.x, at.y, at.z), material, extinction));
         lines.push_back(line);
       },
       [&] {

@@ -121,25 +121,6 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
   });
 }
 
-/// Only radius sets have pictures; ellipses do not. Detail raises weights to 1 + m; a format that ends at 1 would cut
-/// them.
-void check_textures(const scene::TexturedSplats& textures, const scene::Scene& scene, const cmodel::Config& config) {
-  if (textures.phases().empty()) return;
-  if (draws_ellipses(scene, config)) {
-    throw_usage({.where = "splat_texture.amplitude",
-                 .what = "the device cannot draw textured ellipses",
-                 .expected = "circles, or splats without texture",
-                 .got = "ellipses",
-                 .fix = "use --splat-texture 0, circles without anti-aliasing, motion and lens, or --engine golden"});
-  }
-  if (config.radial_int_bits > 0) return;
-  throw_usage({.where = "configuration " + config.name,
-               .what = "textured splats have weights above 1",
-               .expected = "radial.int_bits = 1",
-               .got = "0",
-               .fix = "add --set radial.int_bits=1, or use --splat-texture 0"});
-}
-
 }  // namespace
 
 // The device holds footprints no wider than the RLUT, whatever computes their weights.
@@ -160,15 +141,8 @@ RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, 
   return RadiusSets(config, draws_ellipses(scene, config) ? range.largest : range.smallest, range.largest, pictures);
 }
 
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
-                  const scene::SheetPlan& plan, int threads) {
-  scene::TexturedSplats textures(scene.description.footprint.texture, scene.kernel);
-  check_textures(textures, scene, config);
-  const std::size_t pictures = std::max<std::size_t>(1, textures.phases().size());
-  Projected out{
-      .splats = {}, .ellipses = {}, .sets = radius_sets(scene, config, pictures), .textures = std::move(textures)};
-  const SplatQuantiser quantised(scene, config, out.sets, slices, plan,
-                                 out.textures.phases().empty() ? nullptr : &out.textures);
+Projected project(const scene::Scene& scene, const SplatQuantiser& quantised, int threads) {
+  Projected out;
   const scene::Traversal traversal(
       scene, holds_densities(scene.description) ? scene::SplatKind::Densities : scene::SplatKind::Colours);
   out.carried = quantised.carries();
@@ -197,7 +171,7 @@ Projected project(const scene::Scene& scene, const cmodel::Config& config, const
     lost += piece.lost;
   }
   out.vanished_share = out.carried || asked == 0.0 ? 0.0 : lost / asked;
-  check_reach(reach, config);
+  check_reach(reach, quantised.config());
   join(pieces, traversal.slices(), threads, out);
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The splats of a scene as the device's numbers, with the radius sets they use.
+// The splats of a scene as the device's numbers.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,6 @@ namespace fastsplat::driver {
 struct Projected {
   Uninitialised<QuantisedSplat> splats;  ///< in traversal order, without vanished ones
   Uninitialised<SplatEllipse> ellipses;  ///< one for each splat in a frame with ellipses; else empty
-  RadiusSets sets;
-  scene::TexturedSplats textures;  ///< the sets' pictures, if any
   std::uint64_t voxels = 0;        ///< non-empty voxels
   std::uint64_t saturated = 0;     ///< voxels whose colour or optical depth left U 4.cf
   std::uint64_t vanished = 0;      ///< voxels whose words are all 0
@@ -30,7 +28,6 @@ void check_reach(double reach, const cmodel::Config& config);
 RadiusSets radius_sets(const scene::Scene& scene, const cmodel::Config& config, std::size_t pictures = 1);
 
 /// Every real splat of the scene, quantised. `threads` (0: all cores) never changes the result.
-Projected project(const scene::Scene& scene, const cmodel::Config& config, const Slices& slices,
-                  const scene::SheetPlan& plan, int threads);
+Projected project(const scene::Scene& scene, const SplatQuantiser& quantised, int threads);
 
 }  // namespace fastsplat::driver

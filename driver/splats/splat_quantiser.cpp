@@ -68,7 +68,7 @@ SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::ui
   out.reach = reach(config_, out.ellipse.shape);
   out.result.splat = {.x = quantise_to<std::int32_t>(real.at.x, centre_),
                       .y = quantise_to<std::int32_t>(real.at.y, centre_),
-                      .depth = depth(real),
+                      .depth = depth(real.depth, real.sheet),
                       .set = kOwnShape,
                       .words = {}};
   if (carry != nullptr) {
@@ -88,12 +88,12 @@ bool draws_ellipses(const scene::Scene& scene, const cmodel::Config& config) {
                                    !d.motion.none() || d.lens.depth_of_field == scene::DepthOfField::Splats);
 }
 
-std::int32_t SplatQuantiser::depth(const scene::RealSplat& splat) const {
+std::int32_t SplatQuantiser::depth(double depth, int sheet) const {
   switch (plan_.use) {
     case scene::SheetUse::Sliced:
-      return slices_.quantise_depth(splat.depth - plan_.slabs.first);
+      return slices_.quantise_depth(depth - plan_.slabs.first);
     case scene::SheetUse::GridSheet:
-      return splat.sheet;
+      return sheet;
     case scene::SheetUse::OneSheet:
     case scene::SheetUse::None:
       break;

@@ -57,8 +57,28 @@ class SplatQuantiser {
     bool saturated = false;  ///< a channel left U 4.cf
     double asked = 0.0;      ///< sum of the four channels before rounding
   };
+  /// A splat that is a circle of a radius set, without colour.
+  struct Placed {
+    QuantisedSplat splat;
+    double amplitude = 0.0;  ///< factor on its material
+  };
+  Placed place(const scene::ScreenPoint& at, int sheet, const glm::vec3& position) const {
+    const double radius = pixel_radius(scene_, at.scale);
+    Placed out{.splat = {.x = quantise_to<std::int32_t>(at.x, position_),
+                         .y = quantise_to<std::int32_t>(at.y, position_),
+                         .depth = depth(at.depth / scene_.volume->kernel_unit(), sheet),
+                         .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(position)),
+                         .words = {}}};
+    // The set's footprint is a little wider or narrower than the splat's: scaled so that total energy is preserved.
+    const double width_ratio = radius / sets_.radius(out.splat.set);
+    out.amplitude = exposed_ * width_ratio * width_ratio;
+    return out;
+  }
+  Result coloured(const Placed& placed, const std::array<double, 4>& material) const {
+    return coloured(placed, material, [this](double value, std::size_t) { return quantise(value, whole_); });
+  }
   Result operator()(const scene::RealSplat& splat) const {
-    return quantised(splat, [this](double value, std::size_t) { return quantise(value, whole_); });
+    return coloured(place(splat.at, splat.sheet, splat.place), splat.material);
   }
   Result operator()(const scene::RealSplat& splat, const RoundingCarry& carry, RoundingCarry::Line& line) const {
     return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
@@ -87,6 +107,7 @@ class SplatQuantiser {
         take((*this)(scene::real_splat(scene_, splats[i])), splats[i].sheet);
     }
   }
+  const cmodel::Config& config() const { return config_; }
   /// Whether rounding errors are diffused. If so, no splat is lost by being too thin.
   bool carries() const { return carries_; }
   RoundingCarry carry(int first_row, int end_row, int columns) const {
@@ -94,7 +115,8 @@ class SplatQuantiser {
   }
 
  private:
-  std::int32_t depth(const scene::RealSplat& splat) const;
+  /// `depth` in kernel units; `sheet`: of the grid.
+  std::int32_t depth(double depth, int sheet) const;
   template <class Round>
   void colour(const std::array<double, 4>& values, const Round& round, Result& out) const {
     for (std::size_t c = 0; c < 4; ++c) {
@@ -106,17 +128,13 @@ class SplatQuantiser {
   }
   template <class Round>
   Result quantised(const scene::RealSplat& splat, const Round& round) const {
-    const double radius = pixel_radius(scene_, splat.at.scale);
-    Result out{.splat = {.x = quantise_to<std::int32_t>(splat.at.x, position_),
-                         .y = quantise_to<std::int32_t>(splat.at.y, position_),
-                         .depth = depth(splat),
-                         .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(splat.place)),
-                         .words = {}}};
-    // The set's footprint is a little wider or narrower than the splat's: scaled so that total energy is preserved.
-    const double width_ratio = radius / sets_.radius(out.splat.set);
-    const double amplitude = exposed_ * width_ratio * width_ratio;
+    return coloured(place(splat.at, splat.sheet, splat.place), splat.material, round);
+  }
+  template <class Round>
+  Result coloured(const Placed& placed, const std::array<double, 4>& material, const Round& round) const {
+    Result out{.splat = placed.splat};
     std::array<double, 4> values{};
-    for (std::size_t c = 0; c < 4; ++c) values[c] = splat.material[c] * amplitude;
+    for (std::size_t c = 0; c < 4; ++c) values[c] = material[c] * placed.amplitude;
     colour(values, round, out);
     return out;
   }

@@ -3,63 +3,26 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <utility>
 
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_unit.hpp"
 #include "cmodel/stream/records.hpp"
 #include "driver/tables/density_tables.hpp"
-#include "driver/tables/index_tables.hpp"
-#include "driver/tables/pattern_tables.hpp"
-#include "driver/tables/tables.hpp"
 #include "driver/tiles/beat_writer.hpp"
 #include "driver/tiles/compiled_state.hpp"
-#include "scene/capability.hpp"
-#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
-namespace {
 
-cmodel::Mode mode_of(const scene::SceneDescription& description) {
-  if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
-  const bool exponential = description.slab_opacity == scene::SlabOpacity::Exponential;
-  if (holds_densities(description))
-    return exponential ? cmodel::Mode::DensityExponential : cmodel::Mode::DensityAdditive;
-  if (every_sample(description)) return exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
-  return exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
-}
-
-const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& device) {
-  scene::check_capability(scene, offers(device));
-  check_densities(scene);
-  return device;
-}
-
-}  // namespace
-
-scene::SheetPlan plan_for_device(const scene::Scene& scene) {
-  if (every_sample(scene.description)) return {scene::SheetUse::OneSheet, {.count = 1}};
-  const scene::SheetPlan plan = scene::sheet_plan(scene);
-  assert(plan.use != scene::SheetUse::None && "refused by check_capability");
-  return plan;
-}
-
-CompiledFrame::State::State(const scene::Scene& scene, const cmodel::Config& device, int threads, int band_rows)
-    : config(checked(scene, device)),
-      mode(mode_of(scene.description)),
-      plan(plan_for_device(scene)),
-      slices(frame_slices(device, scene, plan)),
-      projected(project(scene, device, slices, plan, threads)),
-      grid(device, scene.description.width, scene.description.height, holds_densities(scene.description) ? 1 : 0),
-      bands(grid, band_rows > 0 && !device.culls() && !holds_densities(scene.description)
-                      ? (band_rows + device.lanes - 1) / device.lanes * device.lanes
-                      : device.tile_height),
-      windows(device, projected.sets),
+CompiledFrame::State::State(const scene::Scene& scene, FrameHead head, int threads, int band_rows)
+    : FrameHead(std::move(head)),
+      projected(project(scene, SplatQuantiser(scene, config, sets, slices, plan, pictures()), threads)),
+      bands(grid, band_rows > 0 && !config.culls() && !holds_densities(scene.description)
+                      ? (band_rows + config.lanes - 1) / config.lanes * config.lanes
+                      : config.tile_height),
+      windows(config, sets),
       cells(make_cells()),
       bins(make_bins(threads)) {
   if (sliced()) reach = shaped() ? slices.reach(slices.growth(projected.least_shrink)) : slices.reach();
-  make_preamble(scene, threads);
 }
 
 Cells CompiledFrame::State::make_cells() const {
@@ -75,22 +38,6 @@ TileBins CompiledFrame::State::make_bins(int threads) const {
             splats[i].set == kOwnShape ? windows(splats[i], projected.ellipses[i].shape) : windows(splats[i]), halo());
       },
       [&](std::size_t i) { return first_sheet(static_cast<std::uint32_t>(i)); });
-}
-
-void CompiledFrame::State::make_preamble(const scene::Scene& scene, int threads) {
-  cmodel::append(preamble, cmodel::BeginFrame{cmodel::config_hash(config), grid.image_width, grid.image_height,
-                                              static_cast<std::uint32_t>(grid.count())});
-  cmodel::append(preamble, radial_table(config, scene.kernel));
-  cmodel::append(preamble, factor_table(config));
-  for (std::uint32_t set = 0; set < projected.sets.size(); ++set) {
-    cmodel::append(preamble, set_table(config, scene.kernel, set, projected.sets.radius(set), projected.sets.base(set),
-                                       {.textures = &projected.textures, .number = projected.sets.picture(set)}));
-  }
-  const auto append_all = [this](std::vector<cmodel::LoadTable> tables) {
-    for (cmodel::LoadTable& table : tables) cmodel::append(preamble, std::move(table));
-  };
-  if (holds_densities(scene.description)) append_all(density_tables(config, scene, plan.slabs));
-  if (has_pattern(scene.description)) append_all(pattern_tables(config, scene, plan.slabs, threads));
 }
 
 std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_t& tag, cmodel::RecordSink& out,
@@ -133,35 +80,10 @@ std::uint32_t CompiledFrame::State::emit_sheet(int tile, int sheet, std::uint32_
   return records;
 }
 
-scene::Offers offers(const cmodel::Config& config) {
-  using scene::Method, scene::only;
-  scene::Offers out{.engine = "device",
-                    .methods = only(Method::ImageAligned) | only(Method::AxisAligned) | only(Method::XRay),
-                    .features = 0u,
-                    .footprints_fix = "choose a configuration with ellipses, ",
-                    .methods_elsewhere = only(Method::Westover),
-                    .methods_fix = "set composite.every_sample = 1, ",
-                    .densities_fix = "set classify.segment_bits = 9, ",
-                    .details_fix = "set index.kind = blit2d and snap.phases = 8, ",
-                    .patterns_fix = "set pattern.node_bits = 7, "};
-  if (config.has_ellipses()) {
-    out.engine = "device with ellipses";
-    out.features = static_cast<unsigned>(scene::Feature::Footprints);
-  }
-  if (config.classifies()) out.features |= static_cast<unsigned>(scene::Feature::Densities);
-  if (config.has_patterns()) out.features |= static_cast<unsigned>(scene::Feature::Patterns);
-  // Textured footprints have neither mirror images nor a radial table.
-  if (config.index() == cmodel::IndexKind::Blit2d &&
-      config.index_symmetry == static_cast<int>(cmodel::IndexSymmetry::Off))
-    out.features |= static_cast<unsigned>(scene::Feature::Details);
-  if (config.composite_every_sample != 0) out.methods |= only(Method::Westover);
-  return out;
-}
-
-bool every_sample(const scene::SceneDescription& description) { return description.method == scene::Method::Westover; }
-
 CompiledFrame::CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads, int band_rows)
-    : state_(std::make_unique<const State>(scene, config, threads, band_rows)) {}
+    : CompiledFrame(scene, FrameHead(scene, config, threads), threads, band_rows) {}
+CompiledFrame::CompiledFrame(const scene::Scene& scene, FrameHead head, int threads, int band_rows)
+    : state_(std::make_unique<const State>(scene, std::move(head), threads, band_rows)) {}
 CompiledFrame::~CompiledFrame() = default;
 
 const cmodel::Config& CompiledFrame::config() const { return state_->config; }

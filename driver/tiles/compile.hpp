@@ -15,23 +15,11 @@
 #include "cmodel/stream/beat.hpp"
 #include "cmodel/stream/device.hpp"
 #include "cmodel/stream/record_sink.hpp"
+#include "driver/tiles/frame_head.hpp"
 #include "driver/tiles/render.hpp"
-#include "driver/tiles/tile_bins.hpp"
-#include "scene/capability.hpp"
 #include "scene/scene.hpp"
-#include "scene/sheet_plan.hpp"
 
 namespace fastsplat::driver {
-
-/// Whether a frame's samples are composited one by one (modes 4 and 5), not summed in sheets.
-bool every_sample(const scene::SceneDescription& description);
-
-/// The sheets that the device receives, whichever method makes them; one sheet if every sample is composited. The scene
-/// must have passed scene::check_capability().
-scene::SheetPlan plan_for_device(const scene::Scene& scene);
-
-/// What a device of this configuration offers: always the methods with sheets; with ellipses, footprints of any shape.
-scene::Offers offers(const cmodel::Config& config);
 
 /// Contribution of one tile's records to the report.
 struct TileReport {
@@ -49,6 +37,7 @@ class CompiledFrame {
   /// Throws UserError (Usage) if the scene does not fit the configuration. `threads` (0: all cores) and `band_rows`,
   /// the height of a band of draw_band() (rounded up to blocks, 0: a tile), never change the result.
   CompiledFrame(const scene::Scene& scene, const cmodel::Config& config, int threads = 1, int band_rows = 0);
+  CompiledFrame(const scene::Scene& scene, FrameHead head, int threads, int band_rows);
   ~CompiledFrame();
 
   const cmodel::Config& config() const;

@@ -86,7 +86,7 @@ bool CompiledFrame::State::emit_sets(int tile, int sheet, std::uint32_t& tag, cm
     }
   };
   const SheetSets split = sheet_sets(tile, sheet, report.sheets);
-  std::vector<cmodel::CullBlock> sets;
+  std::vector<cmodel::CullBlock> blocks;
   if (!split.sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
   for (const CellSet& one : split.sets) {
     cmodel::CullBlock set = one.block;
@@ -94,12 +94,12 @@ bool CompiledFrame::State::emit_sets(int tile, int sheet, std::uint32_t& tag, cm
     const std::size_t before = records.size();
     if (!out.would_hide(set)) std::ranges::for_each(one.cells, gather);
     set.splats = static_cast<std::uint32_t>(records.size() - before);
-    sets.push_back(set);
+    blocks.push_back(set);
   }
   std::ranges::for_each(split.others, gather);
   if (split.sets.empty() && records.empty()) return false;
   if (split.sets.empty()) out.begin_sheet({static_cast<std::uint32_t>(sheet)});
-  out.cull_blocks(sets);
+  out.cull_blocks(blocks);
   out.splats(records);
   out.end_sheet({static_cast<std::uint32_t>(sheet), static_cast<std::uint32_t>(records.size())});
   report.splat_records += records.size();

@@ -134,12 +134,13 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   const char* why_plain = nullptr;
   const bool fast = options.unit == Unit::Fast && cmodel::fast::fast_plan(config, &why_plain);
   const int band_rows = !fast ? 0 : options.band_rows > 0 ? options.band_rows : kBandRows;
-  const CompiledFrame compiled(scene, config, options.threads, band_rows);
+  FrameHead head(scene, config, options.threads);
   const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),
                                        .samples = every_sample(scene.description),
                                        .tints = has_pattern(scene.description) && !holds_densities(scene.description)};
-  const auto tables = fast ? cmodel::fast::frame_tables(config, compiled.preamble(), needs, &why_plain)
+  const auto tables = fast ? cmodel::fast::frame_tables(config, head.preamble, needs, &why_plain)
                            : std::optional<cmodel::fast::FrameTables>{};
+  const CompiledFrame compiled(scene, std::move(head), options.threads, band_rows);
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::atomic<std::size_t> done{0};
   const Told told = [&] {

@@ -111,9 +111,15 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
 }
 
 std::string to_text(const DeviceReport& report) {
+  const std::string name = report.config.name + " " + hash_text(cmodel::config_hash(report.config));
+  if (!report.counted) {
+    return fmt::format("driver: {} and {} can change a pixel; the rest was not visited (--counters visits it)\n",
+                       counted(report.driver.voxels, "voxel"), counted(report.driver.splat_records, "splat record")) +
+           fmt::format("device: configuration {}\nunit: fast ({}), without counters\n", name, report.units.vectors);
+  }
   return to_text(report.driver) +
-         fmt::format("device: configuration {} {}, {}, {} composited\n", report.config.name,
-                     hash_text(cmodel::config_hash(report.config)), counted(report.counters.windows, "window"),
+         fmt::format("device: configuration {}, {}, {} composited\n", name,
+                     counted(report.counters.windows, "window"),
                      counted(report.counters.pixels_composited, "pixel")) +
          to_text(report.units, report.counters);
 }

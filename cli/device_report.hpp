@@ -19,6 +19,7 @@ struct DeviceReport {
   cmodel::Counters counters;
   driver::UnitReport units{};  ///< of the integer model
   bool sums = false;           ///< an X-ray: sums can exceed 1.0, so saturation is a real loss
+  bool counted = true;         ///< driver::DeviceRender::counted
 };
 
 /// Which unit rendered the tiles; `counters` are of the same frame.

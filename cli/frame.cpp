@@ -102,7 +102,10 @@ RenderedFrame render_frame(const Renderer& renderer, const scene::Scene& scene, 
                                            .plain = renderer.unit == driver::Unit::Plain});
     return frame;
   }
-  const driver::RenderOptions options{.threads = renderer.threads, .unit = renderer.unit, .progress = progress};
+  const driver::RenderOptions options{.threads = renderer.threads,
+                                      .unit = renderer.unit,
+                                      .counters = renderer.counters,
+                                      .progress = progress};
   frame.picture = renderer.engine == Engine::Rtl
                       ? render_rtl(scene, *renderer.config, options, renderer.checking, frame.checked)
                       : driver::render(scene, *renderer.config, options);
@@ -116,7 +119,7 @@ FrameReport report_of(const Renderer& renderer, const scene::Scene& scene, const
                      .checked = frame.checked};
   if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
     report.engine = DeviceReport{*renderer.config, device->report, device->counters, device->units,
-                                 scene.description.method == scene::Method::XRay};
+                                 scene.description.method == scene::Method::XRay, device->counted};
   } else {
     report.engine = GoldenReport{frame.golden.splats ? *frame.golden.splats : voxel_count(scene),
                                  scene::sheet_plan(scene).slabs.count, frame.golden};

@@ -29,6 +29,7 @@ struct Renderer {
   std::optional<cmodel::Config> config;  ///< present for a device
   Checking checking = Checking::Off;
   driver::Unit unit = driver::Unit::Fast;  ///< for the integer model and the golden renderer
+  bool counters = false;                   ///< of the integer model, of the whole frame and not of what is visible
   int threads = 0;
 };
 

@@ -16,6 +16,9 @@ void declare(Options& options, RenderArguments& to) {
   declare(options, to.config, "cmodel, rtl: hardware configuration, a name or TOML file (base)");
   options.flag("--check", to.check, "rtl: compare every tap, pixel and counter with the model (exit 1 on a mismatch)");
   declare(options, to.wave);
+  options.flag("--counters", to.counters,
+               "cmodel: visit and count also what no pixel depends on, as the device does; same picture, slower (--json "
+               "and --plain do so, too)");
   options.flag("--plain", to.plain,
                "golden, cmodel: use the plain implementation (cmodel: the unit that the RTL is checked against); same "
                "picture, slower");

@@ -25,6 +25,7 @@ struct RenderArguments {
   std::string save_scene;  ///< where to write the scene as TOML; empty for none
   WaveFlags wave;          ///< rtl
   bool check = false;      ///< rtl: compares every tap with the model
+  bool counters = false;   ///< cmodel: counts what no pixel depends on, too
   bool plain = false;      ///< golden, cmodel: the plain implementation instead of the fast one
   // Animation: names in `out` and `raw` contain a run of '#' for the frame number.
   std::optional<std::string> orbit;  ///< "A..B", degrees

@@ -19,7 +19,7 @@ std::uint64_t bits(int a, int b) { return (~std::uint64_t{0} >> (64 - (b - a))) 
 }  // namespace
 
 template <class T>
-TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
+TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels, Counts counts)
     : tables_(tables),
       pixels_(pixels),
       snap_(tables.config),
@@ -32,6 +32,7 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels)
       ellipse_(tables.config),
       densities_(tables.densities),
       compositor_(tables.config),
+      counts_(counts == Counts::All),
       slots_(1) {
   compositor_.opacity() = tables.opacity;
   const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
@@ -58,12 +59,12 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
   const auto rows = static_cast<std::size_t>((height_ + lanes_ - 1) >> lane_bits_);
   dirty_.assign(rows, 0);
   frozen_.assign(rows, 0);
-  culls_ = tables_.config.culls() && culls_in(tile.mode);
+  culls_ = counts_ && tables_.config.culls() && culls_in(tile.mode);
   for (auto& map : opaque_) map.assign(rows, 0);
   sheet_parity_ = 0;
   sets_.clear();
   slots_.assign(static_cast<std::size_t>(ahead) + 1, {.dirty = std::vector<std::uint64_t>(rows)});
-  hidden_sums_.assign(samples_ ? 0 : slots_.size() * sheet_.pixels(), 0);
+  hidden_sums_.assign(samples_ || !counts_ ? 0 : slots_.size() * sheet_.pixels(), 0);
   most_excess_ = 0;
   now_ = waiting_jobs_ = room_taken_ = 0;
   any_frozen_ = false;
@@ -215,15 +216,24 @@ void TileUnit<T>::ellipses(std::span<const EllipseRecord> records) {
 }
 
 template <class T>
-bool TileUnit<T>::would_hide(const CullBlock& set) {
-  if (!culls_) return false;
-  const PixelBox box = box_of(set).clipped(tile_.width, tile_.height);
+bool TileUnit<T>::covers(const std::vector<std::uint64_t>& map, const PixelBox& of) const {
+  const PixelBox box = of.clipped(tile_.width, tile_.height);
   if (box.empty()) return true;
   const std::uint64_t columns =
       bits(static_cast<int>(box.x0) >> lane_bits_, ((static_cast<int>(box.x1) - 1) >> lane_bits_) + 1);
   for (int by = static_cast<int>(box.y0) >> lane_bits_; by <= (static_cast<int>(box.y1) - 1) >> lane_bits_; ++by)
-    if ((columns & ~opaque_[sheet_parity_][static_cast<std::size_t>(by)]) != 0) return false;
+    if ((columns & ~map[static_cast<std::size_t>(by)]) != 0) return false;
   return true;
+}
+
+template <class T>
+bool TileUnit<T>::would_hide(const CullBlock& set) {
+  return culls_ && covers(opaque_[sheet_parity_], box_of(set));
+}
+
+template <class T>
+bool TileUnit<T>::terminated(const PixelBox& box) const {
+  return any_frozen_ && covers(frozen_, box);
 }
 
 template <class T>
@@ -341,7 +351,7 @@ void TileUnit<T>::composite(int bx, int by) {
   const std::uint64_t bit = std::uint64_t{1} << bx;
   if ((frozen_[static_cast<std::size_t>(by)] & bit) != 0) {
     counters_.frozen_pixels += static_cast<std::uint64_t>(x1 - x0) * static_cast<std::uint64_t>(y1 - y0);
-    count_frozen(x0, y0, x1, y1);
+    if (counts_) count_frozen(x0, y0, x1, y1);
     sheet_.clear(x0, y0, x1, y1);
     return;
   }
@@ -375,7 +385,7 @@ void TileUnit<T>::composite(int bx, int by) {
   if (all_frozen) {
     // From here on the block cannot change, and colours below tau stay in range, whatever their sums.
     frozen_[static_cast<std::size_t>(by)] |= bit;
-    any_frozen_ = any_frozen_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
+    any_frozen_ = any_frozen_ || !counts_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,13 +40,26 @@ struct PlacedFootprint {
   bool counted = true;    ///< in this band; false if the footprint begins in a band above it
 };
 
+/// One record of a placed footprint, for a unit that does not count.
+struct WaitingRecord {
+  SplatJob job;
+  std::uint8_t left, right, top, bottom;  ///< the blocks its windows touch, all included
+  std::uint16_t set;
+  bool counted;  ///< PlacedFootprint::counted
+};
+static_assert(sizeof(WaitingRecord) == 32, "two to a cache line");
+
+/// Whether a unit counts as the device does, or draws the same words without counters: hidden splats may then be left
+/// out.
+enum class Counts { All, None };
+
 /// Draws tiles one after the other, from records known to obey docs/stream.md (the driver's). T is the sheet's word: 16
 /// bits if the plan is narrow, else 32.
 template <class T>
 class TileUnit final : public RecordSink {
  public:
   /// Both must outlive the unit.
-  TileUnit(const FrameTables& tables, PixelSink& pixels);
+  TileUnit(const FrameTables& tables, PixelSink& pixels, Counts counts = Counts::All);
 
   void begin_tile(const BeginTile& tile) override { begin_band(tile, true, 0); }
   /// Treats a band of a tile's rows of blocks as a tile, in end_tile() as well. Counters of a tile's bands add up to
@@ -74,17 +88,40 @@ class TileUnit final : public RecordSink {
       counters_.pixels_composited += placed.weighted;
     else
       touch(placed, dirty_);
-    if (placed.weighted != 0) put(placed, colour);
+    if (placed.weighted != 0) put(job_of(placed, colour), placed.set);
   }
   /// Whether no picture depends on the splat in this sheet or a later one: hide() may then replace add().
   bool hidden(const PlacedFootprint& placed) const {
     if (samples_ || halo_ > 0) return false;
     if (placed.weighted == 0) return true;
-    bool frozen = any_frozen_ && tables_.plan.hides;
+    bool frozen = any_frozen_ && (tables_.plan.hides || !counts_);
     for (std::size_t by = placed.first; by <= placed.last; ++by)
       frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
     return frozen;
   }
+  // With Counts::None, a record may be made ahead of its sheet and left out if it is hidden by then.
+  WaitingRecord record(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) const {
+    WaitingRecord out{.job = job_of(placed, colour),
+                      .left = static_cast<std::uint8_t>(std::countr_zero(placed.columns)),
+                      .right = static_cast<std::uint8_t>(63 - std::countl_zero(placed.columns)),
+                      .top = static_cast<std::uint8_t>(placed.first),
+                      .bottom = static_cast<std::uint8_t>(placed.last),
+                      .set = placed.set,
+                      .counted = placed.counted};
+    return out;
+  }
+  /// Draws it in the open sheet. False if it is hidden.
+  bool add(const WaitingRecord& record) {
+    const std::uint64_t columns = ((std::uint64_t{2} << record.right) - 1) & (~std::uint64_t{0} << record.left);
+    std::uint64_t open = 0;
+    for (std::size_t by = record.top; by <= record.bottom; ++by) open |= columns & ~frozen_[by];
+    if (open == 0) return false;
+    for (std::size_t by = record.top; by <= record.bottom; ++by) dirty_[by] |= columns;
+    put(record.job, record.set);
+    return true;
+  }
+  /// Whether no later sheet changes a pixel of the box, in the tile's pixels.
+  bool terminated(const PixelBox& box) const;
   /// Counts a hidden splat's shares of this sheet and the following ones without drawing them. Returns their number.
   std::uint64_t hide(const PlacedFootprint& placed, std::span<const HiddenShare> shares);
   /// Whether hide() would be exact; if not, add() each share in its turn. True if no share has an excess.
@@ -138,18 +175,20 @@ class TileUnit final : public RecordSink {
   static void touch(const PlacedFootprint& placed, std::vector<std::uint64_t>& dirty) {
     for (std::size_t by = placed.first; by <= placed.last; ++by) dirty[by] |= placed.columns;
   }
-  void put(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) {
-    SplatJob& job = jobs_[waiting_jobs_];
-    job.weights = placed.weights;
-    job.at = placed.at;
-    job.columns = placed.across;
-    job.rows = placed.down;
+  SplatJob job_of(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) const {
+    SplatJob job{.weights = placed.weights, .at = placed.at, .columns = placed.across, .rows = placed.down, .colour = {}};
     for (std::size_t c = 0; c < 4; ++c) job.colour[c] = static_cast<std::uint16_t>(colour[c] << colour_shift_);
-    __builtin_prefetch(placed.weights);
-    __builtin_prefetch(placed.weights + 32);
-    waiting_ += largest_product_[placed.set];
+    return job;
+  }
+  void put(const SplatJob& job, std::size_t set) {
+    jobs_[waiting_jobs_] = job;
+    __builtin_prefetch(job.weights);
+    __builtin_prefetch(job.weights + 32);
+    waiting_ += largest_product_[set];
     if (++waiting_jobs_ == kJobs) draw();
   }
+  /// Whether all blocks that the box touches are in the map; true if it touches none.
+  bool covers(const std::vector<std::uint64_t>& map, const PixelBox& box) const;
   /// A footprint of windows that cover these pixels, without weights.
   PlacedFootprint outline(int x, int y, int width, int height) const;
   /// Index of a pixel in the picture (modes 4 and 5) or in the sheet.
@@ -191,6 +230,7 @@ class TileUnit final : public RecordSink {
   std::uint32_t sheet_number_ = 0;
   std::optional<DensityStage> densities_;
   Compositor compositor_;  ///< of classified densities
+  bool counts_;            ///< Counts::All
   bool samples_ = false;   ///< modes 4 and 5
   Sheet<T> sheet_;
   std::vector<PixelState> picture_;            ///< row by row, plus room for what vectors write after it

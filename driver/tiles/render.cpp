@@ -18,6 +18,7 @@
 #include "driver/tables/pattern_tables.hpp"
 #include "driver/tiles/compile.hpp"
 #include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/picture.hpp"
 
 namespace fastsplat::driver {
 
@@ -140,6 +141,16 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
                                        .tints = has_pattern(scene.description) && !holds_densities(scene.description)};
   const auto tables = fast ? cmodel::fast::frame_tables(config, head.preamble, needs, &why_plain)
                            : std::optional<cmodel::fast::FrameTables>{};
+  if (tables && !options.counters && draws_pictures(scene, head)) {
+    auto picture = draw_picture(scene, head, *tables, band_rows, options.threads, options.progress);
+    if (picture) {
+      return {.frame = std::move(picture->frame),
+              .counters = picture->losses,
+              .report = picture->report,
+              .units = {.vectors = cmodel::fast::vector_target()},
+              .counted = false};
+    }
+  }
   const CompiledFrame compiled(scene, std::move(head), options.threads, band_rows);
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::atomic<std::size_t> done{0};

@@ -25,6 +25,9 @@ enum class Unit {
 struct RenderOptions {
   int threads = 0;  ///< bands of tiles in parallel; 0: all cores. Never changes the result.
   Unit unit = Unit::Fast;
+  /// Without counters only what can change a pixel is visited, where Unit::Fast can draw it so; DeviceRender::counted
+  /// says whether it did.
+  bool counters = true;
   int band_rows = 0;  ///< for the fast unit, rounded up to whole blocks; 0: automatic. Changes only hidden_splats.
   Progress progress = {};
 };
@@ -47,6 +50,8 @@ struct DeviceRender {
   cmodel::Counters counters;
   DriverReport report;
   UnitReport units;
+  /// If not, counters and report are those of Picture (driver/tiles/picture.hpp).
+  bool counted = true;
 };
 
 /// Throws UserError (Usage) if the scene does not fit the configuration (method, footprint radius, radius sets), with

@@ -70,6 +70,12 @@ void UnitsCompared::frame(const std::string& name, const std::string& what, cons
                                                                        : nullptr;
     add(name, what + ", " + std::to_string(threads) + " threads, bands of " + std::to_string(rows) + " rows",
         difference, fast.frame, fast.units);
+    for (const int height : {rows, kBandRows[(frames_ + 3) % 7]}) {
+      const DeviceRender picture = render(scene, config, {.threads = threads, .counters = false, .band_rows = height});
+      pictures_ += picture.counted ? 0 : 1;
+      if (picture.frame.words != plain.frame.words && ++different_ <= 5)
+        ADD_FAILURE() << what << ", without counters, " << threads << " threads, bands of " << height << " rows";
+    }
   }
   ++combinations_;
 }
@@ -99,6 +105,7 @@ void UnitsCompared::finish() const {
   std::printf(
       "[figure] frames drawn by both units = %zu, each with every target: %zu, words %zu, different %zu (limit 0)\n",
       combinations_, frames_, words_, different_);
+  std::printf("[figure] frames drawn without counters = %zu\n", pictures_);
   for (const auto& [name, unit] : units_) {
     std::printf("[figure] %s: tiles drawn fast %llu, redone by the plain unit %llu, splats hidden %llu\n", name.c_str(),
                 static_cast<unsigned long long>(unit.fast), static_cast<unsigned long long>(unit.redone),

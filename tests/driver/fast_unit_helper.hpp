@@ -28,7 +28,7 @@ class Targets {
 
 class UnitsCompared {
  public:
-  /// A frame with every target; other threads and heights of bands each time. A scene that the configuration cannot
+  /// A frame with every target, with and without counters; other threads and heights of bands each time. A scene that the configuration cannot
   /// draw is passed over.
   void frame(const std::string& name, const std::string& what, const scene::SceneDescription& description,
              const cmodel::Config& config);
@@ -37,13 +37,14 @@ class UnitsCompared {
   void finish() const;
   std::size_t combinations() const { return combinations_; }
   std::uint64_t redone() const;
+  std::size_t pictures() const { return pictures_; }  ///< drawn without counters, not counted after all
 
  private:
   void add(const std::string& name, const std::string& what, const char* difference, const cmodel::Frame& frame,
            const UnitReport& units);
 
   Targets targets_;
-  std::size_t combinations_ = 0, frames_ = 0, different_ = 0, words_ = 0;
+  std::size_t combinations_ = 0, frames_ = 0, pictures_ = 0, different_ = 0, words_ = 0;
   std::map<std::string, UnitReport> units_;
   std::map<std::string, int> drawn_with_;
 };

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bricks of voxels are opened front to back, each in the first sheet that one of its splats can reach, unless all pixels
+// that it can touch are terminated by then.
+#include "driver/tiles/picture.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <vector>
+
+#include "base/parallel/parallel.hpp"
+#include "cmodel/fast/tile_unit.hpp"
+#include "driver/splats/splat_quantiser.hpp"
+#include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/windows.hpp"
+#include "scene/splats.hpp"
+#include "scene/volume/bricks.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+constexpr int kBlocksAcross = 64;  ///< of a band: TileUnit has a bit for each
+
+/// A brick that may have a splat.
+struct Brick {
+  glm::ivec3 low{0}, high{0};  ///< voxels, both included
+  Extent box{};                ///< holds all pixels that its splats can touch
+  int sheet = 0;               ///< no splat of it reaches an earlier one
+};
+
+/// What all bands share.
+struct Shared {
+  const scene::Scene& scene;
+  const FrameHead& head;
+  const cmodel::fast::FrameTables& tables;
+  scene::VoxelSplats voxels;
+  SplatQuantiser quantised;
+  Windows windows;
+  std::vector<Brick> bricks;  ///< by sheet
+  int width, height;          ///< of a band, pixels
+
+  Shared(const scene::Scene& of, const FrameHead& frame, const cmodel::fast::FrameTables& loaded, int band_rows)
+      : scene(of),
+        head(frame),
+        tables(loaded),
+        voxels(of),
+        quantised(of, frame.config, frame.sets, frame.slices, frame.plan, frame.pictures()),
+        windows(frame.config, frame.sets),
+        width(std::min(frame.grid.image_width, kBlocksAcross * frame.config.lanes)),
+        height((band_rows + frame.config.lanes - 1) / frame.config.lanes * frame.config.lanes) {
+    for (const volume::Brick& brick : volume::bricks_of(*scene.volume))
+      if (!voxels.none(brick.least, brick.greatest)) bricks.push_back(bounded(brick));
+    std::ranges::stable_sort(bricks, {}, &Brick::sheet);
+  }
+
+  int columns() const { return (head.grid.image_width + width - 1) / width; }
+  int rows() const { return (head.grid.image_height + height - 1) / height; }
+  cmodel::BeginTile band(int number) const {
+    const int x = number % columns() * width, y = number / columns() * height;
+    return {head.mode, static_cast<std::uint32_t>(number), x, y, std::min(width, head.grid.image_width - x),
+            std::min(height, head.grid.image_height - y)};
+  }
+  /// The one band that counts a splat, of those that it touches: the centre's.
+  int band_of(const QuantisedSplat& splat) const {
+    const int half = (1 << head.config.position_frac_bits) / 2;
+    const int x = std::clamp((splat.x + half) >> head.config.position_frac_bits, 0, head.grid.image_width - 1);
+    const int y = std::clamp((splat.y + half) >> head.config.position_frac_bits, 0, head.grid.image_height - 1);
+    return y / height * columns() + x / width;
+  }
+
+ private:
+  /// Projected boxes are the hulls of their projected corners, and words are monotonic in what they round.
+  Brick bounded(const volume::Brick& brick) const {
+    Brick out{.low = brick.low, .high = brick.high};
+    std::array<SplatQuantiser::Placed, 8> corners;
+    std::uint32_t widest = 0;
+    std::int32_t depth = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const glm::ivec3 at((i & 1) != 0 ? brick.high.x : brick.low.x, (i & 2) != 0 ? brick.high.y : brick.low.y,
+                          (i & 4) != 0 ? brick.high.z : brick.low.z);
+      corners[i] = quantised.place(scene.camera.project(scene.volume->position(at.x, at.y, at.z)), voxels.slice(at), {});
+      if (head.sets.rho(corners[i].splat.set) > head.sets.rho(widest)) widest = corners[i].splat.set;
+      depth = std::min(depth, corners[i].splat.depth);
+    }
+    // A step and a pixel more: a voxel's position is rounded to float before it is projected.
+    out.sheet = head.sliced() ? head.slices.first(depth - 1) : depth;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i].splat.set = widest;
+      const Extent one = windows(corners[i].splat);
+      if (i == 0) out.box = one;
+      out.box = {std::min(out.box.x0, one.x0), std::max(out.box.x1, one.x1), std::min(out.box.y0, one.y0),
+                 std::max(out.box.y1, one.y1), 0};
+    }
+    out.box = widened(out.box, 1);
+    return out;
+  }
+};
+
+struct VisitedBand {
+  DriverReport report;
+  double asked = 0.0, lost = 0.0;  ///< of all colour and opacity, and of the splats that vanished
+  std::uint64_t bricks = 0, hidden_bricks = 0;
+};
+
+/// Draws bands, one after the other.
+template <class Word>
+class BandPainter {
+ public:
+  BandPainter(const Shared& shared, cmodel::PixelSink& pixels)
+      : shared_(shared),
+        unit_(shared.tables, pixels, cmodel::fast::Counts::None),
+        waiting_(static_cast<std::size_t>(shared.head.plan.slabs.count)) {}
+
+  /// False if a sum may have been cut.
+  bool draw(int number, VisitedBand& result) {
+    result_ = &result;
+    band_ = shared_.band(number);
+    bricks_.clear();
+    for (const Brick& brick : shared_.bricks) {
+      if (brick.box.x1 > band_.x && brick.box.x0 < band_.x + band_.width && brick.box.y1 > band_.y &&
+          brick.box.y0 < band_.y + band_.height)
+        bricks_.push_back(&brick);
+    }
+    result.bricks = bricks_.size();
+    unit_.begin_band(band_, true, 0);
+    std::size_t next = 0;
+    std::uint32_t sheets = 0;
+    for (std::size_t sheet = 0; sheet < waiting_.size() && unit_.sound(); ++sheet) {
+      unit_.begin_sheet({static_cast<std::uint32_t>(sheet)});
+      for (; next < bricks_.size() && bricks_[next]->sheet <= static_cast<int>(sheet); ++next) open(*bricks_[next]);
+      bool drawn = false;
+      for (const cmodel::fast::WaitingRecord& record : waiting_[sheet]) {
+        if (!unit_.add(record)) continue;
+        drawn = true;
+        result.report.splat_records += record.counted ? 1 : 0;
+      }
+      recycle(waiting_[sheet]);
+      if (!drawn) continue;
+      unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
+      ++sheets;
+    }
+    unit_.end_tile({band_.tile, sheets});
+    return unit_.sound();
+  }
+  const cmodel::Counters& counters() const { return unit_.counters(); }
+
+ private:
+  using Records = std::vector<cmodel::fast::WaitingRecord>;
+  static constexpr std::size_t kRoom = 4096;  ///< records of a sheet for which memory is taken at once
+
+  void open(const Brick& brick) {
+    const cmodel::PixelBox box{brick.box.x0 - band_.x, brick.box.y0 - band_.y, brick.box.x1 - band_.x,
+                               brick.box.y1 - band_.y};
+    if (unit_.terminated(box)) {
+      ++result_->hidden_bricks;
+      return;
+    }
+    const volume::Volume& volume = *shared_.scene.volume;
+    for (int k = brick.low.z; k <= brick.high.z; ++k) {
+      for (int j = brick.low.y; j <= brick.high.y; ++j) {
+        const float* row = &volume.voxels[volume.index(0, j, k)];
+        for (int i = brick.low.x; i <= brick.high.x; ++i) {
+          scene::Material material;
+          const float extinction = shared_.voxels.extinction(row[i], material);
+          if (extinction > 0.0f) begin({i, j, k}, material, extinction);
+        }
+      }
+    }
+  }
+  /// Places a voxel's splat; if it can be seen, its shares wait for their sheets.
+  void begin(const glm::ivec3& at, const scene::Material& material, float extinction) {
+    const glm::dvec3 position = shared_.scene.volume->position(at.x, at.y, at.z);
+    const glm::vec3 rounded(position);
+    const SplatQuantiser::Placed placed =
+        shared_.quantised.place(shared_.scene.camera.project(glm::dvec3(rounded)), shared_.voxels.slice(at), rounded);
+    cmodel::SnappedAxis x = shared_.windows.snapped(placed.splat.x, placed.splat.set),
+                        y = shared_.windows.snapped(placed.splat.y, placed.splat.set);
+    x.origin -= band_.x;
+    y.origin -= band_.y;
+    cmodel::fast::PlacedFootprint footprint = unit_.place(placed.splat.set, x, y);
+    if (footprint.weighted == 0 || unit_.hidden(footprint)) return;
+    const scene::Splat splat = shared_.voxels(at, position, material, extinction);
+    const SplatQuantiser::Result result =
+        shared_.quantised.coloured(placed, {splat.emission.x, splat.emission.y, splat.emission.z, splat.extinction});
+    footprint.counted = shared_.band_of(placed.splat) == static_cast<int>(band_.tile);
+    if (footprint.counted) count(result);
+    const QuantisedSplat& whole = result.splat;
+    const FrameHead& head = shared_.head;
+    if (!head.sliced()) {
+      wait(footprint, head.slices.whole(whole.words), whole.depth);
+      return;
+    }
+    SplatWords before{};
+    const int last = head.slices.last(whole.depth);
+    for (int sheet = head.slices.first(whole.depth); sheet <= last; ++sheet)
+      wait(footprint, head.slices.next_share(whole.words, whole.depth, sheet, before), sheet);
+  }
+  void count(const SplatQuantiser::Result& one) {
+    DriverReport& report = result_->report;
+    ++report.voxels;
+    result_->asked += one.asked;
+    if (one.splat.words != SplatWords{}) {
+      report.saturated_voxels += one.saturated ? 1 : 0;
+      return;
+    }
+    ++report.vanished_voxels;
+    result_->lost += one.asked;
+  }
+  void wait(const cmodel::fast::PlacedFootprint& footprint, const Share& share, int sheet) {
+    if (share.empty()) return;
+    result_->report.saturated_records += share.saturated && footprint.counted ? 1 : 0;
+    Records& records = waiting_[static_cast<std::size_t>(sheet)];
+    if (records.capacity() == 0) {
+      if (spare_.empty()) spare_.emplace_back().reserve(kRoom);
+      records = std::move(spare_.back());
+      spare_.pop_back();
+    }
+    records.push_back(unit_.record(footprint, share.words));
+  }
+  /// Keeps the memory of a sheet that is done for one to come.
+  void recycle(Records& records) {
+    records.clear();
+    if (records.capacity() > 0) spare_.push_back(std::move(records));
+    records = {};
+  }
+
+  const Shared& shared_;
+  cmodel::BeginTile band_;
+  cmodel::fast::TileUnit<Word> unit_;
+  std::vector<const Brick*> bricks_;            ///< that meet the band, by sheet
+  std::vector<Records> waiting_;                ///< by sheet
+  std::vector<Records> spare_;
+  VisitedBand* result_ = nullptr;
+};
+
+/// One painter a thread, so that its memory serves all its bands. Empty if a sum may have been cut.
+template <class Word>
+std::optional<Picture> draw_bands(const Shared& shared, int threads, const Progress& progress) {
+  const int count = shared.columns() * shared.rows();
+  const std::size_t workers = std::min(thread_count(threads), static_cast<std::size_t>(count));
+  FrameSink frame(shared.head.config, shared.head.grid.image_width, shared.head.grid.image_height);
+  std::vector<VisitedBand> results(static_cast<std::size_t>(count));
+  std::vector<cmodel::Counters> losses(workers);
+  std::atomic<int> next{0}, done{0};
+  std::atomic<bool> sound{true};
+  parallel_for(workers, threads, [&](std::size_t worker) {
+    BandPainter<Word> painter(shared, frame);
+    for (int band = next++; band < count && sound; band = next++) {
+      if (!painter.draw(band, results[static_cast<std::size_t>(band)])) sound = false;
+      if (progress) progress(static_cast<std::size_t>(++done), results.size());
+    }
+    losses[worker] = painter.counters();
+  });
+  if (!sound) return std::nullopt;
+  Picture out{.frame = frame.take(), .losses = {}, .report = {}};
+  for (const cmodel::Counters& one : losses) out.losses += one;
+  double asked = 0.0, lost = 0.0;
+  for (const VisitedBand& one : results) {
+    out.bricks += one.bricks;
+    out.hidden_bricks += one.hidden_bricks;
+    out.report.voxels += one.report.voxels;
+    out.report.splat_records += one.report.splat_records;
+    out.report.saturated_voxels += one.report.saturated_voxels;
+    out.report.saturated_records += one.report.saturated_records;
+    out.report.vanished_voxels += one.report.vanished_voxels;
+    asked += one.asked;
+    lost += one.lost;
+  }
+  out.report.vanished_share = asked == 0.0 ? 0.0 : lost / asked;
+  return out;
+}
+
+}  // namespace
+
+bool draws_pictures(const scene::Scene& scene, const FrameHead& head) {
+  return !cmodel::every_sample(head.mode) && !cmodel::holds_densities(head.mode) &&
+         !draws_ellipses(scene, head.config) && !carries(scene.description.method, head.config);
+}
+
+std::optional<Picture> draw_picture(const scene::Scene& scene, const FrameHead& head,
+                                    const cmodel::fast::FrameTables& tables, int band_rows, int threads,
+                                    const Progress& progress) {
+  const Shared shared(scene, head, tables, band_rows);
+  return tables.plan.narrow ? draw_bands<std::uint16_t>(shared, threads, progress)
+                            : draw_bands<std::uint32_t>(shared, threads, progress);
+}
+
+}  // namespace fastsplat::driver

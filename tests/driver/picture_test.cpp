@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures without counters: the same words, and less work. (More scenes and configurations, fast_unit_slow_test.cpp.)
+#include "driver/tiles/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
+#include "tests/driver/scenes_helper.hpp"
+
+namespace fastsplat::driver {
+namespace {
+
+struct Both {
+  DeviceRender picture, counted;
+};
+
+Both drawn(const scene::SceneDescription& description, const cmodel::Config& config) {
+  const scene::Scene scene = scene::build_scene(description);
+  Both out{.picture = render(scene, config, {.threads = 2, .counters = false, .band_rows = config.lanes}),
+           .counted = render(scene, config, {.threads = 1})};
+  EXPECT_EQ(out.picture.frame.words, out.counted.frame.words);
+  EXPECT_TRUE(out.counted.counted);
+  return out;
+}
+
+// An opaque shell: what lies behind it is not visited.
+TEST(Picture, VisitsOnlyWhatCanChangeAPixel) {
+  for (const char* volume : {"shells:48", "binary-cube:40"}) {
+    for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned}) {
+      for (const auto projection : {scene::Projection::Orthographic, scene::Projection::Perspective}) {
+        auto description = view_of(volume, 72);
+        description.opacity_scale = 6.0;
+        description.method = method;
+        description.camera.projection = projection;
+        const Both both = drawn(description, load_config("base"));
+        EXPECT_FALSE(both.picture.counted);
+        figure("voxels visited, of all", static_cast<double>(both.picture.report.voxels) /
+                                              static_cast<double>(both.counted.report.voxels));
+        figure("records drawn, of all", static_cast<double>(both.picture.report.splat_records) /
+                                             static_cast<double>(both.counted.report.splat_records));
+        EXPECT_LT(both.picture.report.voxels, both.counted.report.voxels);
+        EXPECT_LT(both.picture.report.splat_records, both.counted.report.splat_records);
+      }
+    }
+  }
+}
+
+// Where nothing is hidden, everything is visited once, whatever bands there are.
+TEST(Picture, CountsASplatInOneBand) {
+  auto description = view_of("shells:24", 60);
+  description.opacity_scale = 0.02;
+  const Both both = drawn(description, load_config("exact"));
+  EXPECT_FALSE(both.picture.counted);
+  figure("voxels", static_cast<double>(both.picture.report.voxels));
+  EXPECT_EQ(both.picture.report.voxels, both.counted.report.voxels);
+  EXPECT_EQ(both.picture.report.splat_records, both.counted.report.splat_records);
+  EXPECT_EQ(both.picture.report.vanished_voxels, both.counted.report.vanished_voxels);
+}
+
+// Losses that pixels show are told of as they are with counters.
+TEST(Picture, HasTheLossesOfVisiblePixels) {
+  auto description = view_of("shells:24", 60);
+  description.opacity_scale = 80.0;
+  const Both both = drawn(description, load_config("base"));
+  EXPECT_FALSE(both.picture.counted);
+  figure("saturated records", static_cast<double>(both.picture.report.saturated_records));
+  figure("output words saturated", static_cast<double>(both.picture.counters.pixel_saturated));
+  EXPECT_GT(both.picture.report.saturated_records, 0U);
+  EXPECT_LT(both.picture.report.saturated_records, both.counted.report.saturated_records);
+  EXPECT_EQ(both.picture.counters.pixel_saturated, both.counted.counters.pixel_saturated);
+}
+
+// Frames that cannot be drawn so are counted: sums that are cut, error diffusion, ellipses, densities, every sample.
+TEST(Picture, LeavesOtherFramesToTheCountingUnits) {
+  const auto counted = [](void (*change)(scene::SceneDescription&, cmodel::Config&)) {
+    auto description = view_of("shells:16", 48);
+    cmodel::Config config = load_config("base");
+    change(description, config);
+    return drawn(description, config).picture.counted;
+  };
+  EXPECT_TRUE(counted([](auto& d, auto&) { d.method = scene::Method::XRay; }));
+  EXPECT_FALSE(counted([](auto& d, auto& c) {
+    d.method = scene::Method::XRay;
+    c.rounding_carry = static_cast<int>(cmodel::Carry::Off);
+  }));
+  EXPECT_TRUE(counted([](auto& d, auto&) { d.slab_width = 4.0, d.opacity_scale = 30.0; }));
+  EXPECT_TRUE(counted([](auto& d, auto& c) {
+    d.footprint.antialias = true;
+    c = load_config("ellipse");
+  }));
+  EXPECT_TRUE(counted([](auto& d, auto& c) {
+    d.method = scene::Method::Westover;
+    c.composite_every_sample = 1;
+  }));
+  EXPECT_TRUE(counted([](auto& d, auto& c) {
+    d.classify = scene::ClassifyOrder::Post;
+    c.classify_segment_bits = 9;
+  }));
+}
+
+}  // namespace
+}  // namespace fastsplat::driver

@@ -85,14 +85,14 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
     EXPECT_TRUE(noises(out.best).meets);
     EXPECT_EQ(lowerable(out.best, noises), 0) << "judge " << n;
     EXPECT_EQ(exchangeable(out.best, noises, pairs), 0) << "judge " << n;
-    most = std::max(most, out.judged);
+    most = std::max(most, out.evaluated);
     if (noises(base).meets) {
       EXPECT_LE(price(out.best), price(base));
       dearest = std::max(dearest, price(out.best) / price(base));
     }
     const SearchOutcome again = Search(base, noises, price).run();
     EXPECT_EQ(again.best, out.best);
-    EXPECT_EQ(again.judged, out.judged);
+    EXPECT_EQ(again.evaluated, out.evaluated);
   }
   std::printf(
       "[figure] searches that met their target = %d, most configurations judged = %d, dearest = %.3f of base, pairs "
@@ -136,7 +136,7 @@ TEST(Search, IsNearTheBestOfAllWhereThatCanBeKnown) {
       }
     }
     std::printf("[figure] allowed error %g: %.4f times the cost of the best of 38,025, %d judged\n", scale,
-                price(out.best) / best, out.judged);
+                price(out.best) / best, out.evaluated);
     worst = std::max(worst, price(out.best) / best);
   }
   // A local optimum under exchanges of two keys; a step of one key is worth about 4 % here.

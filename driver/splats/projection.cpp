@@ -123,7 +123,7 @@ void join(std::vector<Piece>& pieces, int slices, int threads, Projected& to) {
 
 }  // namespace
 
-// The device holds footprints no wider than the RLUT, whatever computes their weights.
+// The device holds footprints no wider than the RLUT, in every kind of index.
 void check_reach(double reach, const cmodel::Config& config) {
   const double widest = config.rlut_columns / 2.0;
   if (reach <= widest) return;

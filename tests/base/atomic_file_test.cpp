@@ -83,21 +83,21 @@ TEST_F(AtomicFileTest, SaysWhyNot) {
 TEST_F(AtomicFileTest, AFullDiskKeepsTheOldFile) {
   const fs::path path = folder_ / "file";
   write_text_file(path, "old");
-  // A limit on file size stands for the full disk: write() fails part of the way.
+  // A limit on file size stands for a full disk: write() fails half-way.
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{.rlim_cur = 4096, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string told = message(path, std::string(100000, 'x'));
+  const std::string text = message(path, std::string(100000, 'x'));
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_THAT(told, HasSubstr("cannot write"));
+  EXPECT_THAT(text, HasSubstr("cannot write"));
   EXPECT_EQ(read_text_file(path), "old");
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFileTest, AnInterruptRemovesWhatIsUnfinished) {
+TEST_F(AtomicFileTest, AnInterruptRemovesUnfinishedFiles) {
   AtomicFile file(folder_ / "file");
   EXPECT_EQ(files(), 1u);
   remove_unfinished_files();

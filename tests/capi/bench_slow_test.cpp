@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example bench in its simulation: passes the device as it is, names what a fault changes first.
+// The example bench in its simulation: passes the healthy device and names the first difference of a faulty one.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ cli_test::Result bench(const std::vector<std::string>& arguments) {
   return result;
 }
 
-/// The number before `what` in the text; -1 for none.
+/// The number before `what` in the text; -1 if there is none.
 long number_before(const std::string& text, const std::string& what) {
   const auto at = text.find(what);
   if (at == std::string::npos) return -1;
@@ -59,8 +59,8 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
   }
 }
 
-/// A fault that there is not, or that this device has not: a pass would be of another device than was asked for.
-TEST(CapiBench, RefusesAFaultThatThereIsNot) {
+/// Unknown faults, and faults of other devices: a pass would be of another device than the one requested.
+TEST(CapiBench, RefusesUnknownFaults) {
   for (const auto& [fault, why] : {std::pair{"999", "FAIL: no fault 999: 1 to "},
                                    {"abc", "FAIL: +fault: no number: abc"},
                                    {"1 2", "FAIL: +fault: no number: 1 2"},
@@ -73,8 +73,8 @@ TEST(CapiBench, RefusesAFaultThatThereIsNot) {
   EXPECT_NE(bench({"+seed=abc"}).out.find("FAIL: +seed: no number: abc"), std::string::npos);
 }
 
-/// A line that is no beat: told, not left out with all behind it.
-TEST(CapiBench, RefusesALineThatIsNoBeat) {
+/// Lines that are not beats are reported; the lines after them are not silently left out.
+TEST(CapiBench, RefusesLinesThatAreNotBeats) {
   const cli_test::TempFolder folder;
   const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
   const std::string beat = whole.substr(0, 64);
@@ -89,7 +89,7 @@ TEST(CapiBench, RefusesALineThatIsNoBeat) {
   EXPECT_EQ(plain.out.find("no beat of"), std::string::npos) << plain.out;
 }
 
-/// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.
+/// Verdicts are reported and compared: if a corner is read wrongly, a wrong verdict is the first difference.
 TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto culling = [](const std::string& fault) {
     auto result = cli_test::run_words(
@@ -101,7 +101,7 @@ TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto right = culling("0");
   EXPECT_EQ(right.code, 0) << right.err;
   EXPECT_NE(right.out.find("PASS: pass: configuration cull"), std::string::npos);
-  // Its counters have 16 bits and have gone round; what was expected is told as the device counts it.
+  // Its counters have 16 bits and have wrapped; the message prints the expected value modulo 2^16, as the device does.
   const auto busy = right.out.find("busy cycles ");
   ASSERT_NE(busy, std::string::npos);
   const auto cycles = right.out.substr(busy + 12, right.out.find(',', busy) - busy - 12);
@@ -118,7 +118,7 @@ TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   EXPECT_NE(wrong.out.find("first mismatch: verdict: expected tag"), std::string::npos);
 }
 
-TEST(CapiBench, SaysWhatThePageSays) {
+TEST(CapiBench, PrintsThePagesOutput) {
   const std::string page = cli_test::read_bytes(FASTSPLAT_SOURCE_DIR "/docs/capi.md");
   ASSERT_NE(page.find("stream record --volume shells:20 --size 44x40 --config tiny -o"), std::string::npos)
       << "recorded() is another scene's";
@@ -138,7 +138,7 @@ TEST(CapiBench, SaysWhatThePageSays) {
   EXPECT_EQ(lines, 3);
 }
 
-TEST(CapiBench, SaysWhyThereIsNoVerdict) {
+TEST(CapiBench, PrintsWhyTheVerdictIsMissing) {
   const cli_test::TempFolder folder;
   const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
   const std::string cut = folder.write("cut.hex", whole.substr(0, 20 * 65));  // 20 lines of 64 digits

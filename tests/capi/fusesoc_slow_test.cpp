@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fastsplat.core names what is there: every module of rtl/, no file that is not, keys that FuseSoC knows; its generator
+// fastsplat.core names every module of rtl/, only files that exist, and only keys that FuseSoC knows. Its generator
 // makes the package, and Verilator reads the files in the core's order.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace fastsplat::test {
 namespace {
 
-TEST(CapiFusesoc, TheCoreNamesWhatIsThere) {
+TEST(CapiFusesoc, TheCoreNamesExistingFiles) {
   const std::string python = python_with("yaml");
   if (python.empty()) GTEST_SKIP() << "python3-yaml is not installed";
   const cli_test::TempFolder folder;

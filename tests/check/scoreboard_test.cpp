@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scoreboard compares all of a record: two that differ in any one thing are not the same.
+// The scoreboard compares records whole: a difference in any field is reported.
 #include "testbench/check/scoreboard.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Record {
 struct Difference {
   const char* what;
   std::function<void(Record&)> make;
-  const char* told;  ///< in the report
+  const char* reported;  ///< in the report
 };
 
 const std::vector<Difference>& differences() {
@@ -52,14 +52,14 @@ TEST(Scoreboard, PassesEqualRecords) {
   testbench::Scoreboard board;
   show(board.model(), sums());
   Record later = sums();
-  later.header.cycle = 100;  // when it was is the cycle model's business
+  later.header.cycle = 100;  // times are compared by the cycle model
   show(board.rtl(), later);
   board.finish();
   EXPECT_EQ(board.comparisons(), 1u);
   EXPECT_EQ(board.mismatches(), 0u);
 }
 
-TEST(Scoreboard, SeesEveryDifferenceAndTellsIt) {
+TEST(Scoreboard, ReportsEveryDifference) {
   const auto config = named_config("tiny");
   for (const auto& difference : differences()) {
     testbench::Scoreboard board;
@@ -71,12 +71,12 @@ TEST(Scoreboard, SeesEveryDifferenceAndTellsIt) {
     EXPECT_EQ(board.mismatches(), 1u) << difference.what;
     ASSERT_TRUE(board.first() != nullptr) << difference.what;
     const std::string text = describe(config, *board.first());
-    EXPECT_NE(text.find(difference.told), std::string::npos) << difference.what << ": " << text;
+    EXPECT_NE(text.find(difference.reported), std::string::npos) << difference.what << ": " << text;
   }
   std::printf("[figure] differences of a record = %zu, all seen\n", differences().size());
 }
 
-TEST(Scoreboard, SeesWhatIsTooMuchAndWhatNeverCame) {
+TEST(Scoreboard, SeesSurplusAndMissingTaps) {
   testbench::Scoreboard much, little;
   show(much.rtl(), sums());
   EXPECT_EQ(much.mismatches(), 1u);
@@ -88,7 +88,7 @@ TEST(Scoreboard, SeesWhatIsTooMuchAndWhatNeverCame) {
   EXPECT_EQ(little.backlog(), 0u);
 }
 
-// Thousands of records behind: no allocation per record, and none is lost or out of order.
+// Thousands of records behind: no allocation per record; none lost or out of order.
 TEST(Scoreboard, KeepsTheOrderOfALongBacklog) {
   constexpr std::uint32_t kRecords = 20000;
   testbench::Scoreboard board;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verdicts with no simulator near them: a right device's pass, whatever differs is told.
+// The verdict check without a simulator: a correct device passes, every difference is reported.
 #include "testbench/check/verdict_check.hpp"
 
 #include <gtest/gtest.h>
@@ -18,15 +18,16 @@ using testbench::Detector;
 using testbench::RawPort;
 using testbench::RawTap;
 
-RawTap told(const VerdictCycles& verdict) {
-  return {.port = RawPort::Verdict, .cycle = verdict.told, .tag = verdict.tag, .hidden = verdict.hidden, .words = {}};
+RawTap tap_of(const VerdictCycles& verdict) {
+  return {
+      .port = RawPort::Verdict, .cycle = verdict.reported, .tag = verdict.tag, .hidden = verdict.hidden, .words = {}};
 }
 
 std::vector<cmodel::Beat> stream(const cmodel::Config& config) {
   return write_document(config, make_stimulus(config, testbench::StimulusClass::Mixed, 3, 300).document);
 }
 
-/// A cycle model's, of a stream that hides some sets.
+/// The cycle model's verdicts for a stream with hidden groups.
 std::vector<VerdictCycles> verdicts_of(const cmodel::Config& config, const std::vector<cmodel::Beat>& beats) {
   struct Listener final : cmodel::CycleSink {
     std::vector<VerdictCycles> all;
@@ -58,13 +59,13 @@ class Verdicts : public ::testing::Test {
     ASSERT_GE(hidden, 5);
   }
 
-  /// Differences of a device that tells these.
+  /// Differences for a device that reports these.
   std::vector<std::string> differences(const std::vector<VerdictCycles>& shown) const {
     testbench::VerdictCheck check;
     for (const auto& verdict : right_) check.on_verdict(verdict);
     std::vector<std::string> out;
     for (const auto& verdict : shown)
-      if (const auto difference = check.told(told(verdict))) out.push_back(*difference);
+      if (const auto difference = check.compare(tap_of(verdict))) out.push_back(*difference);
     while (const auto missing = check.missing()) out.push_back(*missing);
     return out;
   }
@@ -81,7 +82,7 @@ TEST_F(Verdicts, OnePerCullBlockInTheirOrder) {
     ASSERT_LT(cull_blocks, right_.size());
     EXPECT_EQ(right_[cull_blocks].tag, set->tag);
     if (cull_blocks > 0) {
-      EXPECT_GT(right_[cull_blocks].told, right_[cull_blocks - 1].told);
+      EXPECT_GT(right_[cull_blocks].reported, right_[cull_blocks - 1].reported);
     }
     ++cull_blocks;
   }
@@ -94,7 +95,7 @@ TEST_F(Verdicts, EveryFieldOfEach) {
     auto tag = right_, hidden = right_, late = right_, lost = right_, twice = right_;
     tag[at].tag ^= 1u << at % 32;
     hidden[at].hidden = !hidden[at].hidden;
-    ++late[at].told;
+    ++late[at].reported;
     lost.erase(lost.begin() + static_cast<std::ptrdiff_t>(at));
     twice.insert(twice.begin() + static_cast<std::ptrdiff_t>(at), right_[at]);
     EXPECT_EQ(differences(tag).size(), 1u);
@@ -114,11 +115,11 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
     cmodel::StreamDecode decode(config_, cmodel::StreamScope::Whole);
     for (const auto& beat : beats_) {
       checker.accept(beat);
-      // All that the cycle model expects by now; of nothing else it is told.
+      // All verdicts that the cycle model expects so far; it gets no other input.
       const cmodel::Record* record = decode.feed(beat);
       if (record == nullptr || !std::holds_alternative<cmodel::CullBlock>(*record)) continue;
       ASSERT_LT(next, right_.size());
-      if (!mute) checker.on_raw(told(right_[next]));
+      if (!mute) checker.on_raw(tap_of(right_[next]));
       ++next;
       if (checker.report().mismatches > 0) break;
     }
@@ -132,17 +133,17 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
 }
 
 // M-port-9
-TEST_F(Verdicts, NoneOfADeviceThatDoesNotCull) {
+TEST_F(Verdicts, ADeviceWithoutCullingHasNoVerdicts) {
   cmodel::NullPixels pixels;
   testbench::Checker deaf(named_config("tiny"), cmodel::StreamScope::Whole, pixels);
   deaf.start(0);
-  deaf.on_raw(told(right_.front()));
+  deaf.on_raw(tap_of(right_.front()));
   EXPECT_EQ(deaf.report().mismatches, 0u) << "who shows no verdicts is not asked for them";
   testbench::Checker checker(named_config("tiny"), cmodel::StreamScope::Whole, pixels, {.verdicts = true});
-  checker.on_raw(told(right_.front()));
+  checker.on_raw(tap_of(right_.front()));
   EXPECT_EQ(checker.report().mismatches, 0u) << "cycles, and so verdicts, are not compared yet";
   checker.start(0);
-  checker.on_raw(told(right_.front()));
+  checker.on_raw(tap_of(right_.front()));
   EXPECT_EQ(checker.report().detector, Detector::Verdicts);
   ASSERT_EQ(checker.report().differences.size(), 1u);
   EXPECT_NE(checker.report().differences[0].find("expected none"), std::string::npos);

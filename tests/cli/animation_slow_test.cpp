@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Animations: numbered frames of every engine, what a second run keeps, what Ctrl-C leaves, the video.
+// Animations: numbered frames of every engine, frames kept by a second run, files left by Ctrl-C, the video.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -55,7 +55,7 @@ TEST(Animation, FramesEqualTheStillsOfEveryEngine) {
   ASSERT_EQ(compared, 24);
 }
 
-TEST(Animation, ASecondRunRendersOnlyWhatIsMissingTornOrStale) {
+TEST(Animation, ASecondRunRendersMissingTornAndStaleFramesOnly) {
   const TempFolder folder;
   const auto words = turning({"-o", folder / "f.#.exr", "-o", folder / "f.#.png", "--json", "-"});
   expect_success(fastsplat(words));
@@ -74,7 +74,7 @@ TEST(Animation, ASecondRunRendersOnlyWhatIsMissingTornOrStale) {
   EXPECT_EQ(mended["rendered"], 3);
   EXPECT_EQ(contents(folder), whole);
 
-  // Another scene, another engine, another content of the same files: nothing is kept.
+  // Another scene, another engine, other contents of the same files: no frame is kept.
   for (const std::vector<std::string>& change :
        {std::vector<std::string>{"--zoom", "1.1"}, {"--engine", "cmodel", "--config", "small"}}) {
     auto changed = words;
@@ -140,7 +140,7 @@ TEST(Animation, OfAScenesOwnSequence) {
   EXPECT_EQ(folder.entries().size(), 3u + 1 + 1 + 2);
 }
 
-// Stands in for ffmpeg: leaves its arguments in the video, or fails in words.
+// Replaces ffmpeg: writes its arguments into the video, or fails with a message.
 std::string stand_in(const TempFolder& folder, const std::string& script) {
   std::filesystem::create_directory(folder / "bin");
   folder.write("bin/ffmpeg", "#!/bin/sh\n" + script);
@@ -233,7 +233,7 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
   }
 }
 
-TEST(AnimationMisuse, AFrameThatCannotBeIsToldBeforeTheFirst) {
+TEST(AnimationMisuse, AnImpossibleFrameIsReportedBeforeTheFirst) {
   const TempFolder folder;
   std::ofstream(folder / "s.toml") << "volume = \"shells:8\"\n[camera]\nprojection = \"perspective\"\n[image]\nsize = "
                                       "16\n[lens]\ndepth_of_field = \"splats\"\naperture = 2.0\n[sequence]\nframes = "
@@ -243,7 +243,7 @@ TEST(AnimationMisuse, AFrameThatCannotBeIsToldBeforeTheFirst) {
   EXPECT_EQ(folder.entries().size(), 1u);
 }
 
-TEST(AnimationMisuse, WhereNothingCanBeWrittenIsToldBeforeTheFirstFrame) {
+TEST(AnimationMisuse, UnwritableFoldersAreReportedBeforeTheFirstFrame) {
   const TempFolder folder;
   expect_error(fastsplat(turning({"-o", folder / "none/f.##.png"})), 3, {"none", "does not exist"});
   std::filesystem::create_directory(folder / "f.02.png");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command that a result carries: what makes it again, as a shell reads it.
+// The command that a result carries reproduces it in a shell.
 #include "cli/command_text.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 std::string text(const std::vector<std::string>& words) { return command_text(words); }
 
-TEST(Again, LeavesOutWhatChangesNoResult) {
+TEST(Again, OmitsFlagsThatDoNotChangeTheResult) {
   EXPECT_EQ(text({"compare", "a.exr", "b.exr", "--json", "c.json", "--min-psnr", "48", "--quiet"}),
             "fastsplat compare a.exr b.exr --min-psnr 48");
   EXPECT_EQ(text({"cycles", "--json=-", "--threads=2", "--volume", "shells:8", "--threads", "1"}),

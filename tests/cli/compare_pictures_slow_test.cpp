@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare of pictures that this program did not write, of those for looking, and of one that shows nothing.
+// compare of pictures of other programs, of display pictures, and of an all-black one.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,18 +23,18 @@ Image ramp(int channels, float scale) {
 
 class ComparePictures : public ::testing::Test {
  protected:
-  /// As another program writes it: without the name of the program and without a declaration of its numbers.
+  /// As another program writes it: without a program name and without a declaration of its numbers.
   std::string foreign(const std::string& name, const Image& image) const {
     return undeclared(declared_linear(name, image));
   }
-  /// The PNG without what it says of its numbers.
+  /// The PNG without its declarations.
   static std::string undeclared(const std::string& path) {
     std::string bytes = read_bytes(path);
     if (const auto gamma = bytes.find("gAMA"); gamma != std::string::npos) bytes.erase(gamma - 4, 16);
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  /// ... but that a PNG's numbers are linear.
+  /// The same, declared as linear.
   std::string declared_linear(const std::string& name, const Image& image) const {
     images::write_image(folder_ / name, image, {}, {.kind = images::PixelKind::Uint8});
     return folder_ / name;
@@ -44,7 +44,7 @@ class ComparePictures : public ::testing::Test {
     words.insert(words.end(), {"--json", folder_ / "c.json"});
     return fastsplat(words);
   }
-  nlohmann::json told() const { return nlohmann::json::parse(read_bytes(folder_ / "c.json")); }
+  nlohmann::json json_of() const { return nlohmann::json::parse(read_bytes(folder_ / "c.json")); }
   TempFolder folder_;
 };
 
@@ -54,7 +54,7 @@ TEST_F(ComparePictures, APngOfAnotherProgramIsForLooking) {
   const auto ours = images::read_image(folder_ / "ours.png");
   const auto theirs = foreign("theirs.png", ours.image);
   expect_success(compare({folder_ / "ours.png", theirs}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
   const auto mixed = compare({folder_ / "ours.exr", theirs});
   EXPECT_EQ(mixed.code, 4);
   EXPECT_NE(mixed.err.find("is read as a display picture"), std::string::npos) << mixed.err;
@@ -67,7 +67,7 @@ TEST_F(ComparePictures, SrgbSaysThatBothAre) {
   const auto tiff = foreign("theirs.tif", images::read_image(folder_ / "ours.png").image);
   expect_error(compare({folder_ / "ours.png", tiff}), 4, {"or use --srgb if both are display pictures"});
   expect_success(compare({folder_ / "ours.png", tiff, "--srgb"}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
   const auto real = compare({folder_ / "ours.png", folder_ / "ours.exr", "--srgb"});
   EXPECT_EQ(real.code, 4);
   EXPECT_NE(real.err.find("holds float values"), std::string::npos) << real.err;
@@ -78,7 +78,7 @@ TEST_F(ComparePictures, GreyAndOpaqueAlphaAreTheSameColours) {
              rgba = foreign("rgba.png", ramp(4, 1.0f));
   for (const auto& other : {rgb, rgba}) {
     expect_success(compare({grey, other}));
-    EXPECT_TRUE(told().at("identical").get<bool>()) << other;
+    EXPECT_TRUE(json_of().at("identical").get<bool>()) << other;
   }
   Image glass = ramp(4, 1.0f);
   glass.data[3] = 0.5f;
@@ -88,23 +88,23 @@ TEST_F(ComparePictures, GreyAndOpaqueAlphaAreTheSameColours) {
   EXPECT_EQ(refused.err.find("same size"), std::string::npos) << refused.err;
 }
 
-TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
+TEST_F(ComparePictures, AnAllBlackPictureIsReported) {
   const auto dim = foreign("dim.png", ramp(3, 0.02f)), black = foreign("black.png", Image(16, 16, 3));
   const auto run = compare({dim, black, "--min-psnr", "30"});
   EXPECT_EQ(run.code, 0) << "far above the limit, and yet nothing: " << run.err;
   EXPECT_NE(run.err.find("black.png is all black"), std::string::npos) << run.err;
-  EXPECT_EQ(told().at("all_black"), black);
+  EXPECT_EQ(json_of().at("all_black"), black);
   EXPECT_EQ(compare({black, black}).err.find("all black"), std::string::npos);
   EXPECT_EQ(compare({dim, dim}).err.find("all black"), std::string::npos);
-  EXPECT_TRUE(told().at("all_black").is_null());
-  // Alpha is no light.
+  EXPECT_TRUE(json_of().at("all_black").is_null());
+  // Alpha is not light.
   Image veil(16, 16, 4);
   for (std::size_t at = 3; at < veil.data.size(); at += 4) veil.data[at] = 1.0f;
   EXPECT_NE(compare({foreign("lit.tif", ramp(4, 0.5f)), foreign("veil.tif", veil)}).err.find("veil.tif is all black"),
             std::string::npos);
 }
 
-TEST_F(ComparePictures, WhatTheFilesDeclareMustAgree) {
+TEST_F(ComparePictures, DeclarationsOfTheFilesMustAgree) {
   const auto linear = declared_linear("linear.png", ramp(3, 1.0f)), plain = foreign("plain.png", ramp(3, 1.0f));
   expect_success(compare({linear, linear}));
   const auto mixed = compare({linear, plain});
@@ -124,7 +124,7 @@ TEST_F(ComparePictures, AlphaThatMultipliesAndAlphaThatDoesNotAreRefused) {
   expect_success(compare({theirs, theirs}));
 }
 
-TEST_F(ComparePictures, AnErrorThatNobodySeesIsSaid) {
+TEST_F(ComparePictures, AHiddenErrorIsReported) {
   Image a = ramp(4, 1.0f);
   a.data[3] = 0.0f;
   Image b = a;
@@ -132,10 +132,10 @@ TEST_F(ComparePictures, AnErrorThatNobodySeesIsSaid) {
   const auto hidden = compare({foreign("a.png", a), foreign("b.png", b)});
   EXPECT_EQ(hidden.code, 0) << hidden.err;
   EXPECT_NE(hidden.err.find("alpha is 0 in both"), std::string::npos) << hidden.err;
-  EXPECT_EQ(told().at("worst_is_hidden"), true);
+  EXPECT_EQ(json_of().at("worst_is_hidden"), true);
   b.data[3] = 1.0f;
   EXPECT_EQ(compare({folder_ / "a.png", foreign("b.png", b)}).err.find("alpha is 0"), std::string::npos);
-  EXPECT_EQ(told().at("worst_is_hidden"), false);
+  EXPECT_EQ(json_of().at("worst_is_hidden"), false);
 }
 
 TEST_F(ComparePictures, GreyWithAlphaIsRgbWithAlpha) {
@@ -148,7 +148,7 @@ TEST_F(ComparePictures, GreyWithAlphaIsRgbWithAlpha) {
   const auto four = foreign("four.png", grey), two = folder_ / "two.png";
   ASSERT_EQ(run_words({"oiiotool", four, "--ch", "R,A", "--chnames", "Y,A", "-d", "uint8", "-o", two}).code, 0);
   expect_success(compare({undeclared(two), foreign("three.png", rgb)}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
 }
 
 }  // namespace

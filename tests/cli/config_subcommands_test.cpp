@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands that take a configuration: config diff, --set wherever --config is, what a changed one is called
-// afterwards.
+// Subcommands that take a configuration: config diff, --set beside --config, the name of a changed configuration.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -45,7 +44,7 @@ TEST(ConfigDiff, EqualIsAPass) {
   EXPECT_TRUE(json.at("differences").empty());
 }
 
-TEST(ConfigDiff, TellsEveryKeyThatDiffersAndNoOther) {
+TEST(ConfigDiff, ListsEveryKeyThatDiffersAndNoOther) {
   const auto [code, out] = said({"config", "diff", "base", "wide", "--json", "-"});
   EXPECT_EQ(code, ExitCode::Failed);
   const auto base = driver::load_config("base"), wide = driver::load_config("wide");
@@ -55,19 +54,19 @@ TEST(ConfigDiff, TellsEveryKeyThatDiffersAndNoOther) {
   std::size_t differ = 0;
   for (const auto& key : cmodel::config_keys()) {
     if (base.*key.member == wide.*key.member) continue;
-    ASSERT_LT(differ, json.at("differences").size()) << key.name << " is not told";
-    const auto& told = json.at("differences").at(differ++);
-    EXPECT_EQ(told.at("key"), key.name);
-    EXPECT_EQ(told.at("a"), base.*key.member);
-    EXPECT_EQ(told.at("b"), wide.*key.member);
+    ASSERT_LT(differ, json.at("differences").size()) << key.name << " is not listed";
+    const auto& listed_key = json.at("differences").at(differ++);
+    EXPECT_EQ(listed_key.at("key"), key.name);
+    EXPECT_EQ(listed_key.at("a"), base.*key.member);
+    EXPECT_EQ(listed_key.at("b"), wide.*key.member);
   }
   EXPECT_EQ(differ, json.at("differences").size());
   std::printf("[figure] keys in which base and wide differ = %zu (limit > 0)\n", differ);
   EXPECT_GT(differ, 0u);
 }
 
-// The names are different, the device is the same.
-TEST(ConfigDiff, ANameIsNoDifference) {
+// The names differ, the device is the same.
+TEST(ConfigDiff, ANameIsNotADifference) {
   const cli_test::TempFolder folder;
   auto config = driver::load_config("tiny");
   config.name = "mine";
@@ -132,7 +131,7 @@ TEST(Index, IsShortForSetWhereverThatIs) {
   EXPECT_EQ(config(index.out).name, "tiny+index.kind=linear");
 }
 
-// Of an engine rtl N-2-8: index.kind.
+// N-2-8 for engine rtl: index.kind.
 TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
   struct Case {
     std::vector<std::string> words, said;

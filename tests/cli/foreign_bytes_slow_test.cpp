@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that are no UTF-8, in the names of files and in what pictures carry: results are told all the same.
+// Bytes that are not UTF-8, in file names and in metadata of pictures: results are still printed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -11,18 +11,18 @@ namespace fastsplat::cli_test {
 namespace {
 
 const std::string kName = "caf\xe9";            // Latin-1
-const std::string kAsUtf8 = "caf\xef\xbf\xbd";  // what JSON can say of it
+const std::string kAsUtf8 = "caf\xef\xbf\xbd";  // as JSON can hold it
 
 /// The run's JSON, once from a file and once from stdout; `--json` and `--quiet` are added here.
-nlohmann::json told(const TempFolder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--json", folder / "told.json"});
+nlohmann::json result_of(const TempFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--json", folder / "result.json"});
   const auto run = fastsplat(arguments);
   EXPECT_EQ(run.code, 0) << arguments[0] << ": " << run.err;
   EXPECT_EQ(run.err.find("internal"), std::string::npos) << run.err;
-  return nlohmann::json::parse(read_bytes(folder / "told.json"), nullptr, false);
+  return nlohmann::json::parse(read_bytes(folder / "result.json"), nullptr, false);
 }
 
-TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
+TEST(ForeignBytes, NamesOfFilesComeThroughEverySubcommand) {
   const TempFolder folder;
   const std::string volume = folder / (kName + ".nrrd"), picture = folder / (kName + ".png"),
                     stream = folder / (kName + ".fss");
@@ -40,7 +40,7 @@ TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
   int said = 0;
   for (const auto& command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
-    const auto json = told(folder, command);
+    const auto json = result_of(folder, command);
     EXPECT_FALSE(json.is_discarded()) << "no JSON";
     said += json.dump().find(kAsUtf8) != std::string::npos ? 1 : 0;
   }
@@ -48,13 +48,13 @@ TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
   EXPECT_GE(said, 6);
 }
 
-TEST(ForeignBytes, WhatAPictureCarriesComesThroughCompare) {
+TEST(ForeignBytes, MetadataOfAPictureComesThroughCompare) {
   const TempFolder folder;
   Image image(4, 4);
   for (const std::string ending : {".exr", ".tif", ".png"}) {
     SCOPED_TRACE(ending);
     images::write_image(folder / ("a" + ending), image, {{"scene", kName}});
-    const auto json = told(folder, {"compare", folder / ("a" + ending), folder / ("a" + ending)});
+    const auto json = result_of(folder, {"compare", folder / ("a" + ending), folder / ("a" + ending)});
     EXPECT_FALSE(json.is_discarded()) << "no JSON";
   }
 }
@@ -70,7 +70,7 @@ TEST(ForeignBytes, ASceneThatTomlCannotHoldIsRefusedBeforeTheWork) {
   EXPECT_EQ(folder.entries(), before);
 }
 
-/// Neither stdout nor stderr nor a page holds what a terminal obeys.
+/// Neither stdout nor stderr nor a page holds terminal control bytes.
 TEST(ForeignBytes, ControlBytesOfNamesAreEscapedEverywhere) {
   const TempFolder folder;
   const std::string name =

@@ -55,8 +55,8 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
   expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
 }
 
-// Axis, anti-aliasing and colours as the header has them; --up counts before it.
-TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
+// Axis, anti-aliasing and colours follow the header; --up takes precedence.
+TEST(GaussiansRun, FollowsTheHeader) {
   const TempFolder folder;
   const std::string ply = read_bytes(kShells);
   const auto drawn = [&](const std::string& name, const std::string& comment, const std::vector<std::string>& more) {
@@ -75,19 +75,19 @@ TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
   drawn("plain", "", {});
   drawn("up", "", {"--up", "z"});
   EXPECT_EQ(drawn("hinted", "comment Vertical Axis: z\n", {})["up"], "z");
-  drawn("told", "comment Vertical Axis: z\n", {"--up", "-y"});
+  drawn("declared", "comment Vertical Axis: z\n", {"--up", "-y"});
   EXPECT_FALSE(same("plain.exr", "up.exr"));
   EXPECT_TRUE(same("hinted.exr", "up.exr"));
-  EXPECT_TRUE(same("told.exr", "plain.exr"));
+  EXPECT_TRUE(same("declared.exr", "plain.exr"));
   EXPECT_EQ(drawn("mip", "comment SplatRenderMode: mip\n", {})["antialiased"], true);
   EXPECT_FALSE(same("mip.exr", "plain.exr"));
-  // The same numbers, shown otherwise.
+  // The same numbers, presented otherwise.
   EXPECT_EQ(drawn("linear", "comment color_space: linear\n", {})["linear"], true);
   EXPECT_TRUE(same("linear.exr", "plain.exr"));
   EXPECT_FALSE(same("linear.png", "plain.png"));
 }
 
-TEST(GaussiansRun, WhatIsDroppedIsAWarning) {
+TEST(GaussiansRun, DroppedRowsAreAWarning) {
   const TempFolder folder;
   std::string splat = read_bytes(kCloud);
   splat.replace(64, 4, "\xff\xff\xff\xff");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rule for a word that names nothing: exit 2 where it is a name, 3 where it is a file; hints that are near; what
-// the machine offers.
+// Unknown names exit with 2, missing files with 3; suggestions are close; the machine's programs are listed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +15,7 @@ std::vector<std::string> still(const std::vector<std::string>& more) {
   return words;
 }
 
-TEST(Names, ANameThatIsNoneIsAWrongCommandLine) {
+TEST(Names, UnknownNamesAreUsageErrors) {
   const std::vector<std::vector<std::string>> commands{still({"--scene", "demo:nope"}),
                                                        still({"--tf", "nope"}),
                                                        still({"--volume", "nope"}),
@@ -85,7 +84,7 @@ TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
   }
   std::printf("[figure] programs = %zu, found = %d (limit > 0)\n", json.at("programs").size(), found);
   EXPECT_GT(found, 0);
-  // Where there are no programs, they are missing.
+  // Without the programs they are reported missing.
   Surroundings bare;
   bare.environment = {"PATH=/nonexistent"};
   const auto without = nlohmann::json::parse(fastsplat({"doctor", "--json", "-"}, bare).out);
@@ -95,8 +94,7 @@ TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
   EXPECT_NE(missing.find("apt-get install verilator"), std::string::npos) << missing;
 }
 
-// One that hangs with a child, one that is another program of the name, one that fails, one that says its version
-// oddly.
+// A program that hangs with a child, another program of the same name, one that fails, one with an odd version.
 TEST(Names, DoctorAsksProgramsAndDoesNotWaitForThem) {
   const TempFolder folder;
   const auto program = [&](const std::string& name, const std::string& body) {
@@ -108,9 +106,9 @@ TEST(Names, DoctorAsksProgramsAndDoesNotWaitForThem) {
   program("yosys", "echo 'Yosys 9.81+7 (git sha1 1234)'");
   Surroundings here;
   here.environment = {"PATH=" + folder.path().string() + ":/usr/bin:/bin"};
-  const auto told = fastsplat({"doctor", "--json", "-"}, here);
-  expect_success(told);
-  const auto programs = nlohmann::json::parse(told.out).at("programs");
+  const auto doctor = fastsplat({"doctor", "--json", "-"}, here);
+  expect_success(doctor);
+  const auto programs = nlohmann::json::parse(doctor.out).at("programs");
   EXPECT_NE(programs.at("ffmpeg").at("problem").get<std::string>().find("within 5 s"), std::string::npos);
   EXPECT_EQ(programs.at("ffmpeg").at("path"), folder / "ffmpeg");
   EXPECT_TRUE(programs.at("parallel").contains("problem"));

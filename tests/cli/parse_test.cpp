@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line, parsed: what the flags become, and what is said when words make no sense.
+// The parsed command line: the values of flags, and the messages for wrong combinations.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"--xray-invert", "writes no picture"}}));
 
 INSTANTIATE_TEST_SUITE_P(
-    OtherVerbs, Usage,
+    OtherSubcommands, Usage,
     ::testing::Values(
         Misuse{"cycles_background",
                {"cycles", "--volume", "shells:8", "--background", "1,1,1"},
@@ -226,7 +226,7 @@ void declare_everything(Options& options, Everything& to) {
   options.flag("--flag", to.flag, "");
 }
 
-TEST(Parse, WhatIsNotGivenKeepsItsDefault) {
+TEST(Parse, MissingFlagsKeepTheirDefaults) {
   const auto to = filled<Everything, declare_everything>({"verb", "a", "b"});
   EXPECT_EQ(to.first, "a");
   EXPECT_EQ(to.second, "b");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run and tools/, the scripts: each prints its help, and unknown arguments are refused before anything is installed,
-// configured or built. They lie in a tree of their own, among programs that only write down that they were called.
+// ./run and the scripts in tools/: each prints its help; unknown arguments are refused before anything is installed,
+// configured or built. They run in a copied tree, among programs that only record their calls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// A copy of ./run and tools/ with what they read beside them, and nothing that could be built.
+/// A copy of ./run and tools/ with their data files, and nothing that could be built.
 class Tree {
  public:
   Tree() {
@@ -32,7 +32,7 @@ class Tree {
     before_ = folder_.entries();
   }
 
-  /// Puts a program in the way of the system's; it writes its name into `called` first.
+  /// Shadows a program of the system; it writes its name into `called` first.
   void put(const std::string& tool, const std::string& script) const {
     const std::string path = folder_.write(
         "stubs/" + tool, "#!/bin/sh\necho " + tool + " >>'" + (folder_ / "called") + "'\n" + script + "\n");
@@ -43,14 +43,14 @@ class Tree {
     Surroundings here;
     here.folder = folder_.path();
     here.environment = {"PATH=" + (folder_ / "stubs") + ":" + std::getenv("PATH")};
-    // A script of tools/ is called by its name, everything else is a command of run.
+    // Scripts of tools/ are called by name; all else are commands of ./run.
     const bool tool = fs::exists(folder_.path() / "tools" / words.front());
     Words all{folder_ / (tool ? "tools/" + words.front() : "run")};
     all.insert(all.end(), words.begin() + (tool ? 1 : 0), words.end());
     return run_words(all, here);
   }
 
-  /// Nothing was made in it, and none of the programs called.
+  /// Nothing was created in the tree, and none of the programs was called.
   void expect_untouched() const { EXPECT_EQ(folder_.entries(), before_); }
   std::string operator/(const std::string& name) const { return folder_ / name; }
 
@@ -88,7 +88,7 @@ std::vector<std::pair<std::string, std::string>> listed(const Tree& tree) {
   return subcommands;
 }
 
-TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
+TEST(RunCommands, EachPrintsItsHelpAndBuildsNothing) {
   const Tree tree;
   const auto subcommands = listed(tree);
   for (const auto& [subcommand, line] : subcommands) {
@@ -107,7 +107,7 @@ TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
   EXPECT_EQ(subcommands.size(), 5U);
 }
 
-TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
+TEST(RunCommands, EachToolPrintsItsHelpAndIsListed) {
   const Tree tree;
   const std::string page = read_bytes(tree / "tools/README.md");
   int tools = 0;
@@ -127,25 +127,25 @@ TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
   EXPECT_GT(tools, 9);
 }
 
-TEST(RunVerbs, TheScriptHasThoseThatItLists) {
+TEST(RunCommands, TheScriptHasTheCommandsThatItLists) {
   const Tree tree;
-  std::set<std::string> told, had;
-  for (const auto& [subcommand, line] : listed(tree)) told.insert(subcommand);
+  std::set<std::string> shown, had;
+  for (const auto& [subcommand, line] : listed(tree)) shown.insert(subcommand);
   const std::string script = read_bytes(tree / "run");
   const std::string doors = script.substr(script.rfind("\ncase $verb in\n"));
   static const std::regex door(R"(\n  ([a-z]+)\))");
   for (auto at = std::sregex_iterator(doors.begin(), doors.end(), door); at != std::sregex_iterator(); ++at)
     had.insert((*at)[1]);
-  EXPECT_EQ(told, had);
+  EXPECT_EQ(shown, had);
 }
 
-TEST(RunVerbs, HelpBehindOtherArgumentsIsHelp) {
+TEST(RunCommands, HelpBehindOtherArgumentsIsHelp) {
   const Tree tree;
   EXPECT_EQ(tree.run({"test", "-L", "fast", "-h"}).out, tree.run({"test", "--help"}).out);
   tree.expect_untouched();
 }
 
-TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
+TEST(RunCommands, UnknownCommandsAreRefusedAndNothingIsBuilt) {
   const Tree tree;
   const std::vector<std::pair<Words, Words>> wrong{
       {{"nosuch"}, {"command 'nosuch'", "./run help"}},
@@ -185,8 +185,8 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
   tree.expect_untouched();
 }
 
-// Those that are known get as far as the packages, of which there are none here.
-TEST(RunVerbs, WhatIsKnownGoesOn) {
+// Known packages get as far as the package manager, of which this tree has none.
+TEST(RunCommands, KnownCommandsAreRun) {
   const std::vector<Words> right{{"test", "-L", "fast", "-R", "Name", "-j2", "--timeout=9", "-VV"},
                                  {"bench", "--benchmark_filter=rtl"},
                                  {"netlist", "small", "cull"},
@@ -232,7 +232,7 @@ cd "$2" && sh ./configure)");
   fs::remove(tree / "stubs/ninja");  // the system's own
 }
 
-TEST(RunVerbs, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
+TEST(RunCommands, UnknownTargetsAreRefusedBeforeTheBuild) {
   const Tree tree;
   put_build(tree);
   expect_success(tree.run({"build", "-j1", "one"}));
@@ -240,7 +240,7 @@ TEST(RunVerbs, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
   fs::remove(tree / "build/one");
   expect_refusal(tree.run({"build", "one", "two"}), {"build", "'two'", "targets"});
   EXPECT_FALSE(fs::exists(tree / "build/one"));
-  // Of files that the build has not looked at since they changed.
+  // Files changed since the build last looked at them.
   std::ofstream(tree / "more") << "a target\n";
   expect_success(tree.run({"build", "one", "two"}));
   EXPECT_TRUE(fs::exists(tree / "build/two"));

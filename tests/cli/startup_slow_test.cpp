@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every run pays before it does anything: the image library, hundreds of libraries deep, is loaded for pictures
-// alone.
+// The start-up cost of every run: the image library, with its hundreds of libraries, is loaded for pictures only.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,7 +20,7 @@ constexpr const char* kTag = "fastsplat-codec ";
 
 using Words = std::vector<std::string>;
 
-/// Commands that meet no picture, each on next to no work.
+/// Commands without pictures, with minimal work.
 const std::vector<Words> kWithoutPictures{
     {"--version"},
     {"help"},
@@ -49,7 +48,7 @@ Words libraries_of(const Words& arguments, const std::string& trace) {
       if (at != std::string::npos) names.push_back(fs::path(line.substr(at + 14)).filename());
     }
   }
-  EXPECT_FALSE(names.empty()) << "the loader told nothing: nothing was checked";
+  EXPECT_FALSE(names.empty()) << "the loader printed nothing: nothing was checked";
   return names;
 }
 
@@ -92,7 +91,7 @@ TEST(StartUp, TakesLessThanATwentiethOfASecond) {
   GTEST_SKIP() << "the sanitizer's own start is longer";
 #endif
   constexpr double kLimit = 0.05;
-  constexpr int kRuns = 20;  // the least of them: other work on the machine only adds
+  constexpr int kRuns = 20;  // the minimum: other work on the machine only adds
   for (const auto& arguments : kWithoutPictures) {
     double least = 1e9;
     for (int run = 0; run < kRuns; ++run) {
@@ -106,7 +105,7 @@ TEST(StartUp, TakesLessThanATwentiethOfASecond) {
   }
 }
 
-/// A program copied out of its build, with what lies beside it.
+/// A program copied out of its build, with the files beside it.
 class Copied {
  public:
   Copied() {
@@ -116,7 +115,7 @@ class Copied {
   std::string bin(const std::string& name) const { return folder_ / ("bin/" + name); }
   std::string operator/(const std::string& name) const { return folder_ / name; }
   static fs::path module() { return fs::path(program()).parent_path() / kModule; }
-  /// Golden takes minutes for this: a refusal that comes after the work is a time-out.
+  /// Golden takes minutes for this: a refusal after the work is a time-out.
   Result render_for_minutes(const Words& environment = {}) const {
     return run_words({bin("fastsplat"), "render", "--volume", "shells:256", "--size", "4096", "-o", folder_ / "a.png"},
                      with_environment(environment));
@@ -133,19 +132,20 @@ class Copied {
   TempFolder folder_;
 };
 
-TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
+TEST(StartUp, AMissingModuleIsReportedBeforeTheWork) {
   const Copied copied;
   copied.expect_refused(copied.render_for_minutes(), {kModule, "missing", "/lib/fastsplat/", "./run build"});
-  // What else is wrong with a command is reported first: the library costs a quarter of a second.
+  // Other errors of a command come first: the library costs a quarter of a second.
   const std::string raw = copied / "a.exr";
-  const std::vector<Words> wrong{{"render", "--volume", "shells:8", "--size", "0", "-o", raw},
-                                 {"render", "--volume", "shells:8", "--config", "none", "--engine", "cmodel", "-o", raw},
-                                 {"render", "--volume", "shells:8", "--orbit", "0", "--frames", "2", "-o", raw},
-                                 {"render", "--gaussians", "shells:8", "--size", "0", "-o", raw},
-                                 {"errors", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
-                                 {"errors", "bound", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
-                                 {"stream", "replay", raw, "--config", "none", "-o", raw},
-                                 {"compare", raw, raw, "--max-lsb", "-1"}};
+  const std::vector<Words> wrong{
+      {"render", "--volume", "shells:8", "--size", "0", "-o", raw},
+      {"render", "--volume", "shells:8", "--config", "none", "--engine", "cmodel", "-o", raw},
+      {"render", "--volume", "shells:8", "--orbit", "0", "--frames", "2", "-o", raw},
+      {"render", "--gaussians", "shells:8", "--size", "0", "-o", raw},
+      {"errors", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
+      {"errors", "bound", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
+      {"stream", "replay", raw, "--config", "none", "-o", raw},
+      {"compare", raw, raw, "--max-lsb", "-1"}};
   for (auto words : wrong) {
     words.insert(words.begin(), copied.bin("fastsplat"));
     EXPECT_EQ(run_words(words).code, 2) << words[1] << ' ' << words[2];
@@ -154,9 +154,9 @@ TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
   const auto compared = run_words({copied.bin("fastsplat"), "compare", "a.exr", "b.exr"});
   EXPECT_EQ(compared.code, 3) << compared.err;
   expect_success(run_words({copied.bin("fastsplat"), "volume", "info", "shells:8"}));
-  const auto told = run_words({copied.bin("fastsplat"), "doctor", "--json", "-"});
-  expect_success(told);
-  EXPECT_NE(nlohmann::json::parse(told.out)["missing"].dump().find(kModule), std::string::npos) << told.out;
+  const auto doctor = run_words({copied.bin("fastsplat"), "doctor", "--json", "-"});
+  expect_success(doctor);
+  EXPECT_NE(nlohmann::json::parse(doctor.out)["missing"].dump().find(kModule), std::string::npos) << doctor.out;
 }
 
 TEST(StartUp, TheModuleIsFoundBesideTheProgramOrInItsLib) {
@@ -189,7 +189,7 @@ TEST(StartUp, AModuleThatCannotBeLoadedIsRefused) {
     std::ofstream(copied.bin(kModule)) << "no library";
     copied.expect_refused(copied.render_for_minutes(), {kModule, "cannot be loaded", "tools/debian.txt"});
   }
-  // A library that it needs is broken.
+  // A required library is broken.
   const Copied copied;
   fs::copy_file(Copied::module(), copied.bin(kModule));
   std::string needed;

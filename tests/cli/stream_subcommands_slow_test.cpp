@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands that read streams and configurations, at what they cannot take: told with file and place, before what
-// can be told of the rest is lost.
+// Subcommands that read streams and configurations, on invalid ones: the message has file and place, and comes after
+// the valid part was printed.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -14,7 +14,7 @@
 namespace fastsplat::cli_test {
 namespace {
 
-class StreamVerbs : public ::testing::Test {
+class StreamSubcommands : public ::testing::Test {
  protected:
   void SetUp() override {
     expect_success(
@@ -24,8 +24,8 @@ class StreamVerbs : public ::testing::Test {
   const std::string stream_ = folder_ / "s.fss";
 };
 
-// Nobody writes to it: whoever opens it to read would wait for ever.
-TEST_F(StreamVerbs, APipeIsNoFile) {
+// No writer: opening it for reading would block for ever.
+TEST_F(StreamSubcommands, PipesAreNotFiles) {
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::vector<std::vector<std::string>> commands{
@@ -44,7 +44,7 @@ TEST_F(StreamVerbs, APipeIsNoFile) {
       {"compare", pipe, pipe}};
   for (const auto& command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
-    // A process that hangs is ended by the signal, long before the helper's patience ends.
+    // A hanging process is ended by the signal, long before the helper times out.
     std::vector<std::string> words{"timeout", "10", program()};
     words.insert(words.end(), command.begin(), command.end());
     const auto run = run_words(words);
@@ -60,7 +60,7 @@ TEST_F(StreamVerbs, APipeIsNoFile) {
 }
 
 // S-reader-3.
-TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
+TEST_F(StreamSubcommands, ADumpPrintsTheBeatsAndThenTheError) {
   const auto whole = read_bytes(stream_);
   const auto good = fastsplat({"stream", "dump", stream_});
   expect_success(good);
@@ -72,22 +72,22 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
       {whole.substr(0, whole.size() - cmodel::kBeatBytes), "end_frame"},
       {whole.substr(0, whole.size() - 7), cut_beat.c_str()},
       {whole + std::string(cmodel::kBeatBytes, '\0'), "opcode"}};
-  for (const auto& [bytes, told] : damages) {
+  for (const auto& [bytes, message] : damages) {
     const auto run = fastsplat({"stream", "dump", folder_.write("d.fss", bytes), "--json", folder_ / "d.json"});
-    EXPECT_EQ(run.code, 3) << told;
+    EXPECT_EQ(run.code, 3) << message;
     EXPECT_NE(run.err.find("d.fss: beat "), std::string::npos) << run.err;
-    EXPECT_NE(run.err.find(told), std::string::npos) << run.err;
-    EXPECT_NE(run.out.find("begin_tile"), std::string::npos) << "nothing of it is told";
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find("begin_tile"), std::string::npos) << "nothing of it is printed";
     const auto json = nlohmann::json::parse(read_bytes(folder_ / "d.json"));
     EXPECT_GT(json.at("records").size(), 10u);
     EXPECT_TRUE(json.contains("error"));
   }
-  // Whoever wants four records gets four.
+  // A limit of four records prints four.
   expect_success(fastsplat({"stream", "dump", folder_ / "d.fss", "--limit", "4"}));
 }
 
 // A text file is reported as "no stream", not as a stream that ends too early (S-reader-1, S-reader-3).
-TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
+TEST_F(StreamSubcommands, FilesThatAreNotStreamsAreRefused) {
   const auto whole = read_bytes(stream_);
   std::string other_magic = whole;
   other_magic[4] = 'X';
@@ -105,10 +105,10 @@ TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
       ++refused;
     }
   }
-  std::printf("[figure] times told that it is no stream = %d\n", refused);
+  std::printf("[figure] times refused as not a stream = %d\n", refused);
 }
 
-TEST_F(StreamVerbs, VerifyNamesTheFile) {
+TEST_F(StreamSubcommands, VerifyNamesTheFile) {
   auto bytes = read_bytes(stream_);
   const auto cut = folder_.write("cut.fss", bytes.substr(0, bytes.size() - cmodel::kBeatBytes));
   bytes[cmodel::kBeatBytes * 2] = '\x7f';
@@ -123,7 +123,7 @@ TEST_F(StreamVerbs, VerifyNamesTheFile) {
 
 // A hole in the picture is one to every subcommand that reads a stream file (S-file-1); as tiles alone the device takes
 // it.
-TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
+TEST_F(StreamSubcommands, TilesCoverTheImageForEverySubcommand) {
   const auto config = driver::load_config("tiny");
   std::vector<cmodel::Beat> beats;
   driver::read_beats(stream_, [&](auto part) { beats.insert(beats.end(), part.begin(), part.end()); });
@@ -147,14 +147,14 @@ TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
   }
 }
 
-TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
+TEST_F(StreamSubcommands, AResetBehindTheEndIsRefused) {
   const auto run = fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(run.code, 2) << run.out << run.err;
   EXPECT_NE(run.err.find("the stream ends before this beat"), std::string::npos) << run.err;
   const auto beats = std::to_string(read_bytes(stream_).size() / cmodel::kBeatBytes);
   EXPECT_NE(run.err.find("at most " + beats), std::string::npos) << run.err;
   EXPECT_EQ(fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", beats}).code, 0);
-  // Random streams are of many lengths: those that are shorter are counted.
+  // Random streams have many lengths: shorter ones are counted.
   const auto random = fastsplat({"verify", "--random", "50", "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(random.code, 0);
   EXPECT_NE(random.err.find("streams are shorter, and were reset after their last beat"), std::string::npos)
@@ -162,13 +162,13 @@ TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
 }
 
 // S-file-3.
-TEST_F(StreamVerbs, TheLimitOfARecordingIsSaidBeforeTheWork) {
+TEST_F(StreamSubcommands, TheLimitOfARecordingIsReportedBeforeTheWork) {
   expect_error(
       fastsplat({"stream", "record", "--volume", "/nonexistent.nrrd", "--size", "9000", "-o", folder_ / "b.fss"}), 2,
       {"--size", "67108864", "smaller"});
 }
 
-TEST_F(StreamVerbs, AConfigurationWithoutRtlIsToldSo) {
+TEST_F(StreamSubcommands, AConfigurationWithoutRtlIsRefused) {
   const auto check = [&](const std::vector<std::string>& changes) {
     std::vector<std::string> words{"config", "check", "tiny", "--json", folder_ / "c.json"};
     words.insert(words.end(), changes.begin(), changes.end());
@@ -184,14 +184,14 @@ TEST_F(StreamVerbs, AConfigurationWithoutRtlIsToldSo) {
   EXPECT_FALSE(nlohmann::json::parse(read_bytes(folder_ / "c.json")).at("rtl").get<bool>());
 }
 
-TEST_F(StreamVerbs, VerifyAdvisesNoFlagThatItHasNot) {
+TEST_F(StreamSubcommands, VerifyAdvisesNoFlagThatItHasNot) {
   const auto run = fastsplat({"verify", "--random", "9", "--config", "tiny", "--set", "snap.phases=1"});
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.err.find("the RTL needs a phase bit"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("--engine"), std::string::npos) << run.err;
 }
 
-TEST_F(StreamVerbs, ThePatternIsCalledWhatItDoes) {
+TEST_F(StreamSubcommands, ThePatternIsCalledWhatItDoes) {
   expect_error(fastsplat({"cycles", "--stream", stream_, "--config", "tiny", "--ready", "never-5"}), 2,
                {"never-5", "alternate-5"});
   expect_success(fastsplat({"cycles", "--stream", stream_, "--config", "tiny", "--ready", "alternate-5"}));

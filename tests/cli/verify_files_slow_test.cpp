@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a failing verify: whose they are when several runs fail at once, that nothing of them stays when a run
-// is interrupted, and that where they cannot be written a verdict is a verdict.
+// The files of a failing verify: several runs at once keep theirs apart, an interrupted run leaves none, and the
+// verdict does not depend on them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 class VerifyFiles : public ::testing::Test {
  protected:
   void SetUp() override { here_.folder = folder_.path(); }
-  nlohmann::json told(const std::string& name) const { return nlohmann::json::parse(read_bytes(folder_ / name)); }
+  nlohmann::json json_of(const std::string& name) const { return nlohmann::json::parse(read_bytes(folder_ / name)); }
 
   TempFolder folder_;
   Surroundings here_;
@@ -41,21 +41,21 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
   const Words seeds{"1", "2", "3", "4", "5", "6"};
   std::vector<std::thread> runs;
   for (const auto& seed : seeds)
-    runs.emplace_back([&, seed] { fastsplat(failing(seed, {"--json", "told-" + seed + ".json"}), here_); });
+    runs.emplace_back([&, seed] { fastsplat(failing(seed, {"--json", "result-" + seed + ".json"}), here_); });
   for (auto& run : runs) run.join();
   std::set<std::string> streams;
   std::size_t alike = 0;
   for (const auto& seed : seeds) {
-    const auto failure = told("told-" + seed + ".json").at("failure");
+    const auto failure = json_of("result-" + seed + ".json").at("failure");
     streams.insert(failure.at("stream"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / failure.at("waveform").get<std::string>()));
-    // The line that was printed, run: it fails as the run did that printed it.
+    // The printed command line fails as the run that printed it.
     std::istringstream line(failure.at("replay").get<std::string>());
     Words words{std::istream_iterator<std::string>(line), {}};
     words.erase(words.begin());
     words.insert(words.end(), {"--json", "again.json", "--failure", "again"});
     EXPECT_EQ(fastsplat(words, here_).code, 1);
-    alike += told("again.json").at("failure").at("first") == failure.at("smallest") ? 1 : 0;
+    alike += json_of("again.json").at("failure").at("first") == failure.at("smallest") ? 1 : 0;
   }
   std::printf("[figure] streams = %zu, replay lines that are true = %zu (expected %zu)\n", streams.size(), alike,
               seeds.size());
@@ -67,13 +67,13 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
 }
 
 TEST_F(VerifyFiles, DoNotTakeANameOfTheSameCommand) {
-  const auto run = fastsplat(failing("1", {"--wave", "verify-failure.fst", "--json", "told.json"}), here_);
+  const auto run = fastsplat(failing("1", {"--wave", "verify-failure.fst", "--json", "result.json"}), here_);
   EXPECT_EQ(run.code, 1) << run.err;
-  EXPECT_EQ(told("told.json").at("failure").at("waveform"), "verify-failure-2.fst");
-  EXPECT_EQ(told("told.json").at("wave").at("file"), "verify-failure.fst");
+  EXPECT_EQ(json_of("result.json").at("failure").at("waveform"), "verify-failure-2.fst");
+  EXPECT_EQ(json_of("result.json").at("wave").at("file"), "verify-failure.fst");
 }
 
-// /proc takes no file of anybody's.
+// /proc accepts no files.
 TEST_F(VerifyFiles, AreNotNeededToPass) {
   here_.folder = "/proc";
   const auto run = fastsplat({"verify", "--random", "100", "--config", "tiny"}, here_);
@@ -92,16 +92,16 @@ TEST_F(VerifyFiles, ThatCannotBeLeaveTheVerdict) {
   EXPECT_EQ(failure.at("waveform"), "");
   EXPECT_EQ(failure.at("unwritten").size(), 1u);
   EXPECT_NE(failure.at("smallest"), "") << "it is made small all the same";
-  // A place that was named is tried before the run.
+  // A given path is tried before the run.
   expect_error(fastsplat(failing("1", {"--failure", "mine"}), here_), 3, {"mine.fss"});
 }
 
 TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
   const auto run =
-      fastsplat(failing("1", {"--junit", "/dev/full", "--json", "told.json", "--save-stream", "run.fss"}), here_);
+      fastsplat(failing("1", {"--junit", "/dev/full", "--json", "result.json", "--save-stream", "run.fss"}), here_);
   EXPECT_EQ(run.code, 1) << run.err;
   EXPECT_NE(run.err.find("warning: /dev/full: cannot write"), std::string::npos) << run.err;
-  EXPECT_EQ(told("told.json").at("verdict"), "mismatch");
+  EXPECT_EQ(json_of("result.json").at("verdict"), "mismatch");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "run.fss"));
 
   here_.largest_file = 6000;  // the JSON has two thousand, the stream eight
@@ -110,29 +110,29 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
   EXPECT_EQ(small.code, 1) << small.err;
   EXPECT_NE(small.err.find("warning: small.fss: cannot write"), std::string::npos) << small.err;
   EXPECT_NE(read_bytes(folder_ / "small.xml").find("failures=\"1\""), std::string::npos);
-  EXPECT_FALSE(told("small.json").contains("saved"));
-  EXPECT_NE(told("small.json").at("unwritten").at(0).get<std::string>().find("small.fss"), std::string::npos);
+  EXPECT_FALSE(json_of("small.json").contains("saved"));
+  EXPECT_NE(json_of("small.json").at("unwritten").at(0).get<std::string>().find("small.fss"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "small.fss"));
 }
 
-// Behind a pass it is an error, and says how much of a numbered set is there.
+// After a pass it is an error, and the message counts the files of a numbered set that exist.
 TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
   Words words{"verify", "--random", "4000", "--config", "tiny", "--save-stream", "run-##.fss", "--json"};
   auto first = words;
   first.push_back("first.json");
   ASSERT_EQ(fastsplat(first, here_).code, 0);
   std::uintmax_t largest = 0;
-  const auto before = told("first.json");
+  const auto before = json_of("first.json");
   for (const auto& saved : before.at("saved")) {
     const auto file = folder_.path() / saved.at("stream").get<std::string>();
     largest = std::max(largest, std::filesystem::file_size(file));
     std::filesystem::remove(file);
   }
   here_.largest_file = largest - 1;
-  words.insert(words.end(), {"told.json", "--junit", "told.xml", "--coverage", "covered.json"});
+  words.insert(words.end(), {"result.json", "--junit", "result.xml", "--coverage", "covered.json"});
   const auto run = fastsplat(words, here_);
   EXPECT_EQ(run.code, 3) << run.err;
-  const auto result = told("told.json");
+  const auto result = json_of("result.json");
   const auto saved = result.value("saved", nlohmann::json::array()).size();
   const auto streams = result.at("streams").get<std::size_t>();
   EXPECT_GT(saved, 0u);
@@ -146,7 +146,7 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
   EXPECT_EQ(result.at("unwritten").size(), 2u) << "coverage and a stream";
   for (const auto& why : result.at("unwritten"))
     EXPECT_NE(run.err.find("error: " + why.get<std::string>()), std::string::npos) << run.err;
-  EXPECT_NE(read_bytes(folder_ / "told.xml").find("failures=\"0\""), std::string::npos);
+  EXPECT_NE(read_bytes(folder_ / "result.xml").find("failures=\"0\""), std::string::npos);
 }
 
 TEST_F(VerifyFiles, AreNamedOnStderrByAQuietRun) {
@@ -167,15 +167,15 @@ TEST_F(VerifyFiles, MismatchesThatAreNotCountedToTheEndSaySo) {
   };
   const auto stopped = verify({"--json", "stopped.json"}),
              all = verify({"--json", "all.json", "--all-mismatches", "1"});
-  // The run stops with a cycle, which may have several.
+  // The run stops with a cycle, which may have several mismatches.
   EXPECT_NE(stopped.out.find(" mismatches, stopped there"), std::string::npos) << stopped.out;
-  EXPECT_GE(told("stopped.json").at("mismatches"), 1000);
-  EXPECT_LT(told("stopped.json").at("mismatches"), 1010);
-  EXPECT_EQ(told("stopped.json").at("stopped"), true);
-  const std::uint64_t number = told("all.json").at("mismatches");
+  EXPECT_GE(json_of("stopped.json").at("mismatches"), 1000);
+  EXPECT_LT(json_of("stopped.json").at("mismatches"), 1010);
+  EXPECT_EQ(json_of("stopped.json").at("stopped"), true);
+  const std::uint64_t number = json_of("all.json").at("mismatches");
   std::printf("[figure] mismatches to the end = %llu (limit > 1000)\n", static_cast<unsigned long long>(number));
   EXPECT_GT(number, 1000u);
-  EXPECT_EQ(told("all.json").at("stopped"), false);
+  EXPECT_EQ(json_of("all.json").at("stopped"), false);
   EXPECT_EQ(all.out.find("stopped there"), std::string::npos) << all.out;
 }
 
@@ -185,8 +185,8 @@ bool waveform_begun(const TempFolder& folder) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.ends_with(".hier"); });
 }
 
-// The signal goes to the program alone, as `kill` sends it: what writes the waveform has to end with it, and is waited
-// for by whoever reads its stdout.
+// The signal goes to the program alone, as from `kill`: its waveform writer has to end with it, because the reader of
+// its stdout waits for that.
 TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     here_.signal = signal;
@@ -202,14 +202,14 @@ TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
     EXPECT_LT(seconds, 5.0) << "the waveform was written to its end";
     EXPECT_FALSE(run.timed_out);
     EXPECT_EQ(run.out.find("waveform:"), std::string::npos) << "the signal came too late";
-    if (signal == SIGKILL) continue;  // nobody is left to remove anything
+    if (signal == SIGKILL) continue;  // no process is left to remove anything
     EXPECT_EQ(run.code, 128 + signal) << run.err;
     ::usleep(100'000);
     EXPECT_EQ(folder_.entries(), Words{});
   }
 }
 
-// A stream is held whole: where memory does not take it, the line says what makes it smaller.
+// A stream is held in memory: if it does not fit, the message says how to make it smaller.
 TEST_F(VerifyFiles, AStreamThatMemoryDoesNotTakeIsRefused) {
   const auto run = run_words(
       {"sh", "-c", "ulimit -v 700000; exec \"$0\" verify --random 10000000 --class mixed --config tiny", program()},

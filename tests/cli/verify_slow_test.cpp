@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scripts read of a verified run: both clocks, and that they agree.
+// A verified run for scripts: both clocks, and that they agree.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -25,7 +25,7 @@ std::uint64_t agreed_cycles(const nlohmann::json& json) {
   return rtl;
 }
 
-TEST(Verify, TellsTheCyclesOfRtlAndModel) {
+TEST(Verify, PrintsTheCyclesOfRtlAndModel) {
   for (const std::vector<std::string>& what :
        {std::vector<std::string>{"--random", "100"}, {"--volume", "shells:8", "--size", "24"}}) {
     std::vector<std::string> arguments{"verify", "--config", "tiny", "--json", "-"};
@@ -43,7 +43,7 @@ TEST(Verify, TellsTheCyclesOfRtlAndModel) {
   }
 }
 
-TEST(Verify, TellsEverySeedOfACampaign) {
+TEST(Verify, ReportsEverySeedOfACampaign) {
   const auto run =
       fastsplat({"verify", "--config", "tiny", "--random", "200", "--seed", "7", "--seeds", "3", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -64,7 +64,7 @@ TEST(Verify, TellsEverySeedOfACampaign) {
   EXPECT_EQ(json.at("by_seed_left_out"), 0);
 }
 
-// RTL goes by the numbers of a configuration, not by its name.
+// RTL is found by the numbers of a configuration, not by its name.
 TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
   const TempFolder folder;
   auto config = driver::load_config("tiny");
@@ -78,7 +78,7 @@ TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
   EXPECT_GT(json.at("comparisons"), 100);
 }
 
-TEST(Verify, RenderWithCheckTellsThemToo) {
+TEST(Verify, RenderWithCheckReportsThemToo) {
   const auto render = [](bool check) {
     std::vector<std::string> arguments{"render", "--volume", "shells:8", "--size", "24", "--engine",
                                        "rtl",    "--config", "tiny",     "--json", "-"};
@@ -94,7 +94,7 @@ TEST(Verify, RenderWithCheckTellsThemToo) {
 }
 
 TEST(Verify, AReplayLineIsTakenAsItIs) {
-  // The line that a failure prints, run: the stream it names is verified, under what the line says.
+  // The command line that a failure prints: it verifies the stream that it names, with the same settings.
   const TempFolder folder;
   const std::string stream = folder / "a.fss";
   expect_success(
@@ -132,7 +132,7 @@ TEST(Verify, ScenesFlagsBesideAStreamAreRefused) {
                {"--random", "a scene's flags", "--volume"});
 }
 
-TEST(Verify, ASceneOfWhichNothingReachesTheDeviceIsNoPass) {
+TEST(Verify, ASceneWithoutSplatsOnTheDeviceIsNotAPass) {
   // tiny's colour words are too short for the automatic exposure of an X-ray: every voxel rounds to nothing.
   const auto verify = [](const std::string& exposure) {
     return fastsplat({"verify", "--volume", "shells:64", "--size", "24", "--method", "xray", "--xray-exposure",

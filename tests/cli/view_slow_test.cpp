@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
+// Pictures for display and for measurement, and the message for a picture too small for the device.
 #include <gtest/gtest.h>
 
 #include "base/atomic_file.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// 0 identical, 1 not: as `compare` says.
+/// 0 identical, 1 different: as `compare` returns.
 int differs(const std::string& a, const std::string& b) {
   return fastsplat({"compare", a, b, "--max-lsb", "0", "--quiet"}).code;
 }
@@ -53,7 +53,7 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
     expect_error(fastsplat(words), 2, said);
   };
   refused({"--crop", "0..12,0..5,2..9"}, {"exceeds the volume", "0..11,0..11,0..11"});
-  // In a file it is an error of the file.
+  // In a scene file the same value is an error of the file.
   write_text_file(folder / "s.toml", "volume = \"shells:12\"\ncrop = \"0..12,0..5,2..9\"\n");
   expect_error(fastsplat({"render", "--scene", folder / "s.toml", "-o", folder / "x.exr"}), 3,
                {"s.toml:2:8: crop: the box exceeds the volume"});
@@ -64,7 +64,7 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
   refused({"--fit", "contents"}, {"did you mean 'content'"});
 }
 
-TEST(ViewFlags, AFootprintUnderTwoPixelsIsSaid) {
+TEST(ViewFlags, AFootprintUnderTwoPixelsIsReported) {
   const Words small{"render", "--volume", "shells:32", "--size", "24", "--engine", "cmodel", "--json", "-"};
   const Result result = fastsplat(small);
   EXPECT_EQ(result.code, 0);

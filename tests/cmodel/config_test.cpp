@@ -69,7 +69,7 @@ void with_ellipses(cmodel::Config& c) {
   c = config_of(symbols, c.name);
 }
 
-/// Alone no violation, with an even tile.
+/// No violation alone, with an even tile.
 void ties_to_even_pixels(cmodel::Config& c) {
   c.lanes = c.phases = 1;
   c.rounding_snap = static_cast<int>(cmodel::Rounding::RND_CONV);
@@ -256,7 +256,7 @@ TEST(ConfigLimits, EveryLimitBetweenKeys) {
   std::printf("[figure] limits between keys broken and refused = %zu\n", std::size(kBetween));
 }
 
-// N-2-7: what just keeps a limit is taken.
+// N-2-7: values that just keep a limit are accepted.
 TEST(ConfigLimits, EdgesAreTaken) {
   cmodel::Config config = named_config("base");
   ties_to_even_pixels(config);
@@ -323,7 +323,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
 }
 
 // N-2-2: an unknown key; N-2-7: values out of their limits.
-TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
+TEST(ConfigSet, MisuseIsReportedAndNothingChanges) {
   struct Wrong {
     const char *key, *value, *expected, *got;
   };
@@ -334,12 +334,12 @@ TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
         Wrong{"array.lanes", "12", "a power of two", "12"}, Wrong{"rounding.light", "1", "trn, rnd or rnd_conv", "1"},
         Wrong{"rounding.light", "RND", "trn, rnd or rnd_conv", "RND"}}) {
     cmodel::Config config = named_config("base");
-    const auto told = cmodel::set(config, wrong.key, wrong.value);
-    ASSERT_TRUE(told) << wrong.key << " = " << wrong.value << " is taken";
-    EXPECT_EQ(told->where, wrong.key);
-    EXPECT_EQ(told->expected, wrong.expected) << wrong.key;
-    EXPECT_EQ(told->got, wrong.got) << wrong.key;
-    EXPECT_FALSE(told->fix.empty()) << wrong.key;
+    const auto violation = cmodel::set(config, wrong.key, wrong.value);
+    ASSERT_TRUE(violation) << wrong.key << " = " << wrong.value << " is taken";
+    EXPECT_EQ(violation->where, wrong.key);
+    EXPECT_EQ(violation->expected, wrong.expected) << wrong.key;
+    EXPECT_EQ(violation->got, wrong.got) << wrong.key;
+    EXPECT_FALSE(violation->fix.empty()) << wrong.key;
     EXPECT_EQ(config, named_config("base")) << wrong.key << " has changed it";
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ellipse records among splats: every tap, pixel and counter of the model against the oracle, whatever the index.kind,
-// on random configurations and at the ends of what an ellipse's words may be.
+// Ellipse records among splats: every tap, pixel and counter of the model against the oracle, for every index.kind, on
+// random configurations and at the limits of an ellipse's words.
 #include <gtest/gtest.h>
 
 #include "tests/cmodel/campaign_helper.hpp"
@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EllipseFrames,
                                            IndexKind::SquaredElliptic),
                          [](const auto& param_info) { return name_of(param_info.param); });
 
-// N-4.6-1: whatever index.kind, except linear.
+// N-4.6-1: every index.kind except linear.
 TEST_P(EllipseFrames, ModelEqualsOracleOnRandomConfigurations) {
   Random random(seed_or(71));
   Campaign total;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solid patterns: every tap, pixel and counter of the model against the oracle on random streams; what leaves every bit
-// as it is; rules that only such devices have.
+// Solid patterns: every tap, pixel and counter of the model against the oracle on random streams; patterns without
+// effect; rules of such devices.
 #include <gtest/gtest.h>
 
 #include "cmodel/classify/pattern_unit.hpp"
@@ -14,7 +14,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Random, with patterns, of densities or without.
+/// A random configuration with patterns, with or without densities.
 cmodel::Config random_pattern_config(Random& random) {
   while (true) {
     cmodel::Config config = random.once_in(3) ? random_ellipse_config(random) : random_config(random);
@@ -67,7 +67,7 @@ std::vector<std::uint8_t> stream_with(const cmodel::Config& config, const std::v
 
 // N-6.3-2, N-6.3-3; both or neither (N-6.3-1).
 // S-table-1, S-table-13.
-TEST(Patterns, TablesAreJudged) {
+TEST(Patterns, TablesAreChecked) {
   cmodel::Config plain = named_config("tiny"), config = plain;
   config.pattern_node_bits = 1;
   const std::vector<std::uint32_t> nodes(16, 0xFFFFFFFF), words(13, 65535);

@@ -38,10 +38,10 @@ class PlainDevice {
   bool has_place() const { return taken_places_ < places_; }
   void reserve() { ++taken_places_; }
   void arrive(const PlainBeat& beat) { queue_.push_back(beat); }
-  /// Nothing is queued or on the link.
+  /// No beat is queued or on the link.
   bool all_taken() const { return taken_places_ == 0; }
   bool at_rest(std::uint64_t cycle) const {
-    return all_taken() && !weighed_ && !judged_ && !beat_ && !tile_open_ && cycle >= picture_end_;
+    return all_taken() && !weighed_ && !result_ && !beat_ && !tile_open_ && cycle >= picture_end_;
   }
 
   void clock(std::uint64_t cycle) {
@@ -53,17 +53,17 @@ class PlainDevice {
       if (!beat_) ++out.stalls.stall_input;  // M-register-16, and the other stalls below
     }
     out.end = std::max(out.end, wipe_);
-    // Each register takes what lies before it when it is empty or is emptied in this cycle (M-check-1, M-check-3,
-    // M-decode-1, M-decode-3); the source's beat follows (M-check-2), from the end of the wipe on (M-reset-5).
+    // Each register takes the beat before it when it is empty or is emptied in this cycle (M-check-1, M-check-3,
+    // M-decode-1, M-decode-3). The source's beat follows (M-check-2), once the wipe has ended (M-reset-5).
     const bool done = beat_ && carry_out(cycle);
     if (done) beat_.reset();
-    if (!beat_ && judged_) {
-      beat_ = judged_;
+    if (!beat_ && result_) {
+      beat_ = result_;
       spent_ = 0;
-      judged_.reset();
+      result_.reset();
     }
-    if (!judged_ && weighed_) {
-      judged_ = weighed_;
+    if (!result_ && weighed_) {
+      result_ = weighed_;
       weighed_.reset();
     }
     if (cycle < wipe_ || weighed_ || queue_.empty()) return;
@@ -114,7 +114,7 @@ class PlainDevice {
   std::uint64_t wipe_, walk_, slices_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
-  std::optional<PlainBeat> weighed_, judged_, beat_;  ///< in the two registers of check, in decode
+  std::optional<PlainBeat> weighed_, result_, beat_;  ///< in the two registers of check, in decode
   std::uint64_t spent_ = 0;
   bool tile_open_ = false;
   std::size_t buffer_ = 0;
@@ -156,11 +156,11 @@ std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::
 
   std::size_t served = count - 1;
   std::uint64_t left = 0;          // bytes of the beat on the link
-  std::vector<std::size_t> whose;  // who gets it
+  std::vector<std::size_t> whose;  // its receiver
   PlainBeat carried;
   for (std::uint64_t cycle = 0;; ++cycle) {
     if (cycle > 100'000'000) throw std::runtime_error("the clocked model does not end");
-    // Tiles, in stream order, to those who have nothing left: who took its last beat first comes first.
+    // Tiles, in stream order, go to idle devices: the device whose last beat came first is first.
     while (preamble.empty() && !tiles.empty()) {
       PlainDevice* first = nullptr;
       for (PlainDevice& device : devices)

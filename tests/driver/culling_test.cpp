@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is the one without, sets
-// keep their promise, what is left out changes nothing, and what it costs and brings in cycles.
+// Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is that without culling,
+// groups keep their rules, omitted splats change nothing; its cost and gain in cycles.
 #include <gtest/gtest.h>
 
 #include "cmodel/cycles/cycle_model.hpp"
@@ -23,7 +23,7 @@ cmodel::Config culling(const std::string& name, CullMap map) {
   return config;
 }
 
-/// Much of it is behind other of it.
+/// Much of it lies behind other parts of it.
 scene::SceneDescription opaque() {
   auto out = view_of("shells:40", 140);
   out.opacity_scale = 20.0;
@@ -35,7 +35,7 @@ struct Named {
   scene::SceneDescription description;
 };
 
-/// Of each method and projection that has sheets; some with much to hide.
+/// Scenes of each method and projection that has sheets; some with much to hide.
 std::vector<Named> scenes() {
   std::vector<Named> out;
   const auto add = [&](const std::string& name, scene::SceneDescription d) { out.push_back({name, std::move(d)}); };
@@ -57,7 +57,7 @@ std::vector<Named> scenes() {
 
 // N-8-81: the records of hidden sets are left out.
 TEST(CulledFrames, AreTheFramesWithout) {
-  std::uint64_t sets = 0, swallowed = 0, hidden = 0;
+  std::uint64_t sets = 0, dropped = 0, hidden = 0;
   for (const auto& [name, description] : scenes()) {
     const auto scene = scene::build_scene(description);
     for (const char* device : {"base", "tiny"}) {
@@ -68,7 +68,7 @@ TEST(CulledFrames, AreTheFramesWithout) {
         const DeviceRender skipped = render(scene, config, {.threads = 1, .unit = Unit::Plain});
         EXPECT_EQ(skipped.frame.words, off.frame.words) << name << ", " << device;
         EXPECT_EQ(render(scene, config, {.threads = 3}).counters, skipped.counters);
-        // The whole stream, of which no splat is left out.
+        // The whole stream, with every splat.
         cmodel::CullCounts counts;
         const DeviceRender whole = run_device(
             scene, config,
@@ -79,21 +79,21 @@ TEST(CulledFrames, AreTheFramesWithout) {
         EXPECT_EQ(whole.frame.words, off.frame.words) << name << ", " << device;
         EXPECT_EQ(whole.counters, skipped.counters) << name << ", " << device;
         EXPECT_EQ(whole.report.splat_records, off.report.splat_records) << name << ", " << device;
-        EXPECT_EQ(whole.counters.splats + counts.swallowed, off.counters.splats) << name << ", " << device;
-        EXPECT_EQ(skipped.report.splat_records, whole.report.splat_records - counts.swallowed);
+        EXPECT_EQ(whole.counters.splats + counts.dropped, off.counters.splats) << name << ", " << device;
+        EXPECT_EQ(skipped.report.splat_records, whole.report.splat_records - counts.dropped);
         EXPECT_EQ(off.counters.cull_blocks, 0U);
         if (name == "xray") {
           EXPECT_EQ(counts, cmodel::CullCounts{});
         }
-        sets += counts.hidden_sets, swallowed += counts.swallowed, hidden += counts.hidden_splats;
+        sets += counts.hidden_sets, dropped += counts.dropped, hidden += counts.hidden_splats;
       }
     }
   }
   figure("sets hidden", static_cast<double>(sets));
-  figure("splats swallowed", static_cast<double>(swallowed));
+  figure("splats dropped", static_cast<double>(dropped));
   figure("splats hidden one by one", static_cast<double>(hidden));
   EXPECT_GT(sets, 100U);
-  EXPECT_GT(swallowed, 10000U);
+  EXPECT_GT(dropped, 10000U);
   EXPECT_GT(hidden, 1000U);
 }
 
@@ -102,16 +102,16 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
   for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
     const cmodel::Config config = culling("small", map);
     const CompiledFrame compiled(scene, config);
-    std::size_t told = 0, tiles = 0;
+    std::size_t reported = 0, tiles = 0;
     const CullRun one = run_culls(compiled, 1, [&](std::size_t done, std::size_t all) {
-      EXPECT_EQ(done, ++told);
+      EXPECT_EQ(done, ++reported);
       tiles = all;
     });
     const CullRun three = run_culls(compiled, 3);
-    // Tile by tile, to the last one; a device that does not cull has nothing to do.
-    figure("tiles told of", static_cast<double>(told));
-    EXPECT_EQ(told, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
-    EXPECT_EQ(told, tiles);
+    // Tile by tile, to the last one; a device that does not cull has no work.
+    figure("tiles reported", static_cast<double>(reported));
+    EXPECT_EQ(reported, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
+    EXPECT_EQ(reported, tiles);
     cmodel::NullPixels nowhere;
     cmodel::CullLog log;
     cmodel::Model model(config, cmodel::StreamScope::Subset, nowhere);
@@ -124,8 +124,8 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
   }
 }
 
-/// What the cycle model counts of a scene, and the model.
-TEST(CulledFrames, CycleModelCountsWhatTheModelCounts) {
+/// The cycle model's counts for a scene, and the model's.
+TEST(CulledFrames, CycleModelCountsAsTheModel) {
   for (const auto& [name, description] : scenes()) {
     const auto scene = scene::build_scene(description);
     for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {
@@ -155,7 +155,7 @@ TEST(CulledFrames, CycleModelCountsWhatTheModelCounts) {
   }
 }
 
-// Drawn is what the device took, without those it then hid one by one.
+// The device draws the splats that it took, minus the splats that it then hid one by one.
 TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
   CullRow off, row;
   off.counters.splats = 100;
@@ -168,8 +168,8 @@ TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
 }
 
 TEST(CulledFrames, CostNextToNothingWhereNothingHides) {
-  // So thin that no pixel freezes.
-  auto description = view_of("shells:96", 256);  // whole tiles: what lies beside one is hidden, too
+  // Too thin for any pixel to freeze.
+  auto description = view_of("shells:96", 256);  // whole tiles: a hidden tile hides its neighbour's part too
   description.opacity_scale = 0.02;
   const auto rows = compare_culling(scene::build_scene(description), load_config("base"), 40);
   ASSERT_EQ(rows.size(), 5U);

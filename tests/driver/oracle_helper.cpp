@@ -98,19 +98,19 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, co
     const double most = config.max_extent() / 2.0;
     const double wanted = random.once_in(3) ? real(random, 0.3, 1.1) * most : ratio(random, 0.4, std::min(9.0, most));
     try {
-      // Pixels per radius at zoom 1, then at the zoom that is wanted: in perspective the nearest is larger.
+      // Pixels per radius at zoom 1, then at the wanted zoom: in perspective the nearest is larger.
       const double usual = scene::build_scene(description, volume).kernel.radius() * volume->kernel_unit() *
                            scene::build_scene(description, volume).camera.scale_at(0.0);
       description.camera.zoom = std::clamp(wanted / usual, 1e-3, 1e3);
       return scene::build_scene(description, volume);
     } catch (const UserError&) {
-      // an eye inside the volume: another one
+      // an eye inside the volume: draw again
     }
   }
 }
 
 /// The beat as a record: its name and fields.
-std::string told(const Beat& beat) {
+std::string text_of(const Beat& beat) {
   const cmodel::RecordLayout* layout = cmodel::find_layout(beat[0] & 0xFF);
   if (layout == nullptr) return "no record";
   std::string text = layout->name;
@@ -130,14 +130,14 @@ std::string differing_field(const Beat& expected, const Beat& got) {
   return "a bit that no field has";
 }
 
-/// Empty where they are equal. Payloads of tables are told by table and word.
+/// Empty if they are equal. Payloads of tables are named by table and word.
 std::string difference(const std::vector<Beat>& expected, const std::vector<cmodel::Beat>& got) {
   std::size_t payload = 0, word = 0;
   std::string table, sheet;
   for (std::size_t at = 0; at < expected.size(); ++at) {
     const Beat& beat = expected[at];
     const std::string where = "beat " + std::to_string(at) + ": ";
-    if (at >= got.size()) return where + "ends early, expected " + told(beat);
+    if (at >= got.size()) return where + "ends early, expected " + text_of(beat);
     if (payload > 0) {
       for (std::size_t i = 0; i < beat.size(); ++i, ++word)
         if (beat[i] != got[at][i])
@@ -147,10 +147,10 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
       continue;
     }
     if (beat != got[at])
-      return where + sheet + differing_field(beat, got[at]) + "\n  expected " + told(beat) + "\n  got      " +
-             told(got[at]);
+      return where + sheet + differing_field(beat, got[at]) + "\n  expected " + text_of(beat) + "\n  got      " +
+             text_of(got[at]);
     if ((beat[0] & 0xFF) == static_cast<std::uint32_t>(cmodel::Opcode::LoadTable)) {
-      table = told(beat);
+      table = text_of(beat);
       payload = cmodel::announced_beats(beat);
       word = 0;
     }
@@ -158,11 +158,11 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
       sheet = "sheet " + std::to_string(beat[1]) + ", ";
   }
   if (got.size() > expected.size())
-    return "beat " + std::to_string(expected.size()) + ": expected nothing more, got " + told(got[expected.size()]);
+    return "beat " + std::to_string(expected.size()) + ": expected nothing more, got " + text_of(got[expected.size()]);
   return "";
 }
 
-/// Empty where the frames are equal, and their reports.
+/// Empty if the frames and their reports are equal.
 std::string frame_difference(const scene_oracle::Frame& expected, const CompiledFrame& compiled) {
   const auto preamble = compiled.preamble();
   const std::string first = difference(expected.preamble, {preamble.begin(), preamble.end()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the fast unit was asked for and could not draw, the report says why; else it says nothing.
+// If the fast unit was requested and could not draw, the report gives the reason; else it gives none.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// "" for nothing.
+/// "" for none.
 std::string why_plain(const cmodel::Config& config, Unit unit = Unit::Fast) {
   const auto scene = scene::build_scene(view_of("shells:12", 24));
   const auto units = render(scene, config, {.threads = 1, .unit = unit, .progress = {}}).units;
@@ -60,7 +60,7 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   culling.rounding_light = 1;
   culling.composite_frac_bits = 18;
   EXPECT_NE(shaped().find("too wide for the sample lanes"), std::string::npos) << shaped();
-  figure("reasons told", 6);
+  figure("reasons printed", 6);
 }
 
 }  // namespace

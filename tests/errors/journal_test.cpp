@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets, the figures they ask for, and the journal of a search.
+// Targets, their figures, and the journal of a search.
 #include "analysis/errors/journal.hpp"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ class JournalFile : public ::testing::Test {
       std::filesystem::temp_directory_path() / ("fastsplat_journal_" + std::to_string(::getpid()) + ".jsonl");
 };
 
-TEST_F(JournalFile, KeepsWhatItWasToldToTheLastBit) {
+TEST_F(JournalFile, KeepsItsValuesToTheLastBit) {
   const Fidelity awkward{0.1 + 0.2, 1.0 / 3.0};
   {
     Journal journal(path_);
@@ -92,7 +92,7 @@ TEST_F(JournalFile, KeepsWhatItWasToldToTheLastBit) {
   std::printf("[figure] a journal of two entries = %zu bytes\n", before.size());
 }
 
-/// Killed at any byte: what was whole is kept, what is added then is whole.
+/// Killed at any byte: complete entries are kept, and later ones are complete.
 TEST_F(JournalFile, IsSoundAfterAnyCut) {
   {
     Journal journal(path_);
@@ -124,7 +124,7 @@ TEST_F(JournalFile, RefusesWhatIsNone) {
       EXPECT_EQ(error.code(), ExitCode::Input);
       EXPECT_EQ(error.parts().where.find(path_.string() + ":"), 0u) << error.what();
     }
-    EXPECT_EQ(bytes(), text) << "a file that is no journal was changed";
+    EXPECT_EQ(bytes(), text) << "a file that is not a journal was changed";
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fetch master (docs/microarchitecture.md, "Fetch"): the right beats under any memory, no set asked for that is
-// hidden or not judged, every cycle where the memory is regular, errors told; and each planted fault seen.
+// hidden or undecided, every cycle if the memory is regular, errors reported; and each planted fault seen.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -163,7 +163,7 @@ TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
 }
 
 // Each error (M-fetch-17); commands that break M-fetch-1.
-TEST(Fetch, TellsErrorsAndStops) {
+TEST(Fetch, ReportsErrorsAndStops) {
   const FetchStream stream = stream_of("tiny", 5, 200);
   int told = 0;
   for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {

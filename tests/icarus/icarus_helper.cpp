@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// As in icarus_bench.sv.
 constexpr std::uint64_t kPatternCycles = 32768;
-/// Of a bench that stands still in one moment of time; one that goes on needs a tenth of it.
+/// For a bench stuck in one moment of time; a running bench needs a tenth of it.
 constexpr int kSeconds = 600;
 
 std::string text_of(const fs::path& path) {
@@ -118,7 +118,7 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
 
 Transcript Icarus::play(const Played& played) const {
   {
-    std::ofstream beats(folder_ / "beats"), ready(folder_ / "willing"), plays(folder_ / "plays");
+    std::ofstream beats(folder_ / "beats"), ready(folder_ / "ready"), plays(folder_ / "plays");
     beats << std::hex;
     for (const auto& beat : played.beats) {
       for (std::size_t word = beat.size(); word-- > 0;) {
@@ -135,7 +135,7 @@ Transcript Icarus::play(const Played& played) const {
   }
   shell("cd '" + folder_.string() + "' && timeout -s KILL " + std::to_string(kSeconds) +
             " vvp -n bench.vvp +beats=beats +beat_count=" + std::to_string(played.beats.size()) +
-            " +willing=willing +pattern_count=" + std::to_string(played.patterns.size()) + " +plays=plays",
+            " +ready=ready +pattern_count=" + std::to_string(played.patterns.size()) + " +plays=plays",
         folder_ / "transcript");
   Transcript out = read_transcript(folder_ / "transcript");
   for (const auto& [play, result] : out.plays) {

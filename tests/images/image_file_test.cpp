@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written is read back: values, words, metadata; what cannot be is refused.
+// Written files read back: values, words, metadata; unsupported ones are refused.
 #include "base/images/image_file.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -54,7 +54,7 @@ TEST(ImageFile, ValuesAndMetadataComeBack) {
       // Eleven bits fit half exactly, so that nothing may change.
       for (float& value : image.data) value = std::floor(value * 2048) / 2048;
     }
-    // Alpha 0 under colour that is not: (un)premultiplication would destroy it.
+    // Alpha 0 under a visible colour: (un)premultiplication would destroy it.
     if (channels == 4) image.pixel(3, 2)[3] = 0.0f;
 
     EXPECT_EQ(write_image(folder / format.name, image, kMetadata, {.kind = format.kind}), 0u);
@@ -184,7 +184,7 @@ TEST(ImageFile, DefaultsGoByExtension) {
   }
 }
 
-TEST(ImageFile, ReadsWhatOthersWrite) {
+TEST(ImageFile, ReadsFilesOfOtherPrograms) {
   const TempFolder folder;
   // Straight alpha, sRGB tag, metadata that is not ours: the samples as stored, nothing else.
   for (const std::string name : {"a.png", "a.tif"}) {
@@ -234,7 +234,7 @@ std::string read_refusal(const std::filesystem::path& path) {
   return refusal(ExitCode::Input, [&] { read_image(path); });
 }
 
-TEST(ImageFile, RefusesWhatItCannotMeasure) {
+TEST(ImageFile, RefusesPicturesThatItCannotMeasure) {
   const TempFolder folder;
   write_foreign(folder / "xyz.exr", [](auto& spec) {
     spec.nchannels = 3;
@@ -277,7 +277,7 @@ TEST(ImageFile, ReadsJpegOfOtherPrograms) {
   EXPECT_EQ(loaded.image.channels, 3);
   EXPECT_TRUE(loaded.metadata.empty());
   ASSERT_FALSE(loaded.image.data.empty());
-  // Cut anywhere it is refused, and not filled up with grey.
+  // A cut file is refused, not filled up with grey.
   std::ifstream in(path, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   int cuts = 0;
@@ -303,7 +303,7 @@ TEST(ImageFile, ReadsTiledFiles) {
   }
 }
 
-TEST(ImageFile, RefusesPathsThatAreNoImages) {
+TEST(ImageFile, RefusesPathsThatAreNotImages) {
   const TempFolder folder;
   EXPECT_THAT(read_refusal(folder / "missing.exr"), HasSubstr("missing.exr"));
   std::filesystem::create_directory(folder / "folder.exr");
@@ -321,7 +321,7 @@ TEST(ImageFile, RefusesPathsThatAreNoImages) {
   EXPECT_THAT(read_refusal("/dev/zero"), HasSubstr("/dev/zero"));
 }
 
-TEST(ImageFile, RefusesToWriteWhatTheFormatCannotHold) {
+TEST(ImageFile, RefusesToWriteValuesOutsideTheFormat) {
   const TempFolder folder;
   const Image image = random_image(4, 4, 4, 1);
   const auto write_refusal = [&](const char* name, WriteOptions options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures as XML: series, points, words; and where points come to lie.
+// The plots as XML: series, points, words; and the places of points.
 #include "tools/pages/family/plot.hpp"
 
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tools/pages/family/family_plots.hpp"
 #include "tests/index_kinds/xml_helper.hpp"
 #include "tests/paths.hpp"
+#include "tools/pages/family/family_plots.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -67,12 +67,12 @@ TEST(Plot, AxesAreLogarithmic) {
   std::printf("[figure] a decade = %.1f pixels\n", line[1].first - line[0].first);
 }
 
-TEST(Plot, TheReaderSeesWhatIsNoXml) {
+TEST(Plot, TheReaderRejectsInvalidXml) {
   for (const char* text : {"<a><b></a></b>", "<a x=1/>", "<a>&nbsp;</a>", "<a/><b/>", "<a x=\"1\" x=\"2\"/>", "<a>"})
     EXPECT_THROW(parse_xml(text), std::runtime_error) << text;
 }
 
-// Those that docs/ keeps: six kinds; over the grid five points each.
+// The plots in docs/: six kinds; over the grid five points each.
 TEST(Plot, ThePagesPicturesAreWhole) {
   int pictures = 0, points = 0;
   for (const char* file : kFamilyPictures) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report that is sent on names files, not the folders and people of the machine that made it.
+// A report to be sent names files, not the folders and users of the machine.
 #include "report/file_names.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(FileNames, ValuesAndKeysOfAnyDepthAreSeen) {
             Json({{"key.sv", Json::array({1, nullptr, true, {{"file", "a.exr"}}})}, {"number", 0.25}}));
 }
 
-TEST(FileNames, EqualNamesOfTwoFoldersAreToldApart) {
+TEST(FileNames, EqualNamesOfTwoFoldersAreDisambiguated) {
   const Json data{{"command", "fastsplat compare /home/jane/a/out.exr /home/jane/b/out.exr --map /home/jane/b/map.png"},
                   {"ref", "/home/jane/a/out.exr"},
                   {"test", "/home/jane/b/out.exr"}};
@@ -63,7 +63,7 @@ TEST(FileNames, EqualNamesOfTwoFoldersAreToldApart) {
   EXPECT_EQ(cut["test"], "folder-2/out.exr");
 }
 
-/// A shell's quotes within quotes are no other folder.
+/// A shell's quotes within quotes are not another folder.
 TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
   const Json data{{"command", "fastsplat compare '/home/O'\\''Neil/a.exr' '/home/O'\\''Neil/b.exr'"},
                   {"file", "/home/O'Neil/b.exr"}};
@@ -71,7 +71,7 @@ TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
   EXPECT_EQ(without_folders(data)["file"], "b.exr");
 }
 
-/// A message does not quote its files; other texts tell where such a path ends.
+/// A message does not quote its files; the text around a path shows where it ends.
 TEST(FileNames, FoldersWithBlanksLeaveMessagesToo) {
   const Json data{{"file", "/home/jane doe/a.exr"}, {"remark", "cannot open /home/jane doe/b.exr: no such file"}};
   EXPECT_EQ(without_folders(data)["remark"], "cannot open b.exr: no such file");
@@ -107,7 +107,7 @@ TEST(FileNames, NoFolderIsInAPage) {
       .pictures = {{.role = "other", .file = folder / "b.exr", .otherwise = "other", .wanted = true}}};
   const Report report = make_report(request);
   EXPECT_EQ(report.pictures, 2u);
-  EXPECT_NE(report.remarks.at(0).find(here), std::string::npos) << "the terminal's user is told where";
+  EXPECT_NE(report.remarks.at(0).find(here), std::string::npos) << "the terminal shows where";
   const std::string parent = std::filesystem::path(here).filename().string();
   std::size_t found = 0;
   for (auto at = report.html.find(parent); at != std::string::npos; at = report.html.find(parent, at + 1)) ++found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each subcommand's result gets its sentence; any other file is one error line.
+// Each subcommand's result gets its sentence; any other file gives one error line.
 #include "report/results.hpp"
 
 #include <gtest/gtest.h>
@@ -44,9 +44,9 @@ class Results : public ::testing::Test {
 };
 
 TEST_F(Results, AFailedCompareNamesItsLimits) {
-  const Verdict told = verdict(kCompare);
-  EXPECT_EQ(told.status, Status::Fail);
-  EXPECT_EQ(told.sentence, "PSNR 41.25 dB (required: at least 48), worst error 7.5 LSB (required: at most 3)");
+  const Verdict verdict_got = verdict(kCompare);
+  EXPECT_EQ(verdict_got.status, Status::Fail);
+  EXPECT_EQ(verdict_got.sentence, "PSNR 41.25 dB (required: at least 48), worst error 7.5 LSB (required: at most 3)");
   Json passed = kCompare;
   passed["verdict"] = "pass";
   EXPECT_EQ(verdict(passed).sentence, "41.2 dB, worst error 7.5 LSB of 8 bits: within all limits");
@@ -55,7 +55,7 @@ TEST_F(Results, AFailedCompareNamesItsLimits) {
   EXPECT_EQ(verdict(passed).sentence, "the pictures are identical");
 }
 
-TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
+TEST_F(Results, VerifyPrintsWhatWasCompared) {
   Json json{{"verb", "verify"}, {"verdict", "pass"}, {"comparisons", 1234567},
             {"mismatches", 0},  {"splats", 1},       {"config", "tiny"}};
   EXPECT_EQ(verdict(json).sentence,
@@ -70,8 +70,8 @@ TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
   EXPECT_EQ(verdict(json).status, Status::Error);
 }
 
-/// Of 3-D Gaussians there is no scene with a volume: such a result was taken for a damaged one.
-TEST_F(Results, RendersOfVolumesAndOfGaussiansTellTheirSize) {
+/// A result of 3-D Gaussians has no scene with a volume: it used to be refused as damaged.
+TEST_F(Results, RendersOfVolumesAndOfGaussiansPrintTheirSize) {
   Json json{
       {"verb", "render"}, {"engine", "golden"}, {"scene", {{"volume", "shells:8"}, {"width", 64}, {"height", 48}}}};
   EXPECT_EQ(verdict(json).sentence, "64 x 48 pixels by the golden engine, shells:8");
@@ -91,7 +91,7 @@ TEST_F(Results, APlanIsAsGoodAsItsWorstCase) {
   EXPECT_EQ(verdict(plan).status, Status::Error) << "a plan that ran nothing proves nothing";
 }
 
-TEST_F(Results, ClosureTellsHowMuchOrTheFirstThatIsOpen) {
+TEST_F(Results, ClosurePrintsHowMuchOrTheFirstOpenBin) {
   Json json{{"verb", "closure"},
             {"verdict", "closed"},
             {"bins", {{"hit", 1200}, {"all", 1200}}},
@@ -123,7 +123,7 @@ TEST_F(Results, TheWorstIsTheReportsVerdict) {
   EXPECT_EQ(data["results"][0], kCompare) << "results go in as they are";
 }
 
-TEST_F(Results, WhatIsNoResultIsRefusedInOneLine) {
+TEST_F(Results, FilesThatAreNotResultsAreRefusedInOneLine) {
   expect_refused("", {"empty"});
   expect_refused("{\"verb\": \"compare\", ", {"truncated"});
   expect_refused("not json", {"not a result", "invalid JSON at byte 2"});

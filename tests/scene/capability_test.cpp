@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes together: each refusal by its key, in one line with a way out; what means nothing where; what of it a file
-// may say.
+// Compatible settings: each refusal names its key, in one line with a fix; settings without effect; settings that a
+// file may hold.
 #include "scene/capability.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ auto starts_idle(const std::string& name) {
   return AnyOf(StartsWith(name + " does not apply to "), StartsWith(name + " has no effect without "));
 }
 
-/// A setting says where it has a meaning, or is no setting.
+/// Every setting states where it has an effect.
 template <class T>
 concept MadeWithoutCapability = requires {
   T{"", "", "", "", "", "", Switch{nullptr}};
@@ -94,7 +94,7 @@ TEST(Capability, RefusedCombinationsSayWhy) {
   EXPECT_EQ(refused, 10);
 }
 
-TEST(Capability, WhatGoesTogetherIsTaken) {
+TEST(Capability, CompatibleSettingsAreAccepted) {
   SceneDescription d = perspective();
   d.classify = ClassifyOrder::Post;
   d.footprint.antialias = true;
@@ -151,7 +151,7 @@ std::string said_of(const std::string& flag, const SceneDescription& start) {
   return refused ? one_line(*refused) : "";
 }
 
-TEST(Capability, WhatMeansNothingIsRefusedWithAWayOut) {
+TEST(Capability, SettingsWithoutEffectAreRefusedWithAFix) {
   struct Case {
     const char* flag;
     Method method;
@@ -233,7 +233,7 @@ class IdleKeys : public TemporaryFolder {
 
 TEST_F(IdleKeys, AreRefusedLikeTheirFlagsWithTheirPlace) {
   int checked = 0;
-  // Every setting that can be idle in a plain scene of some method, there.
+  // Every setting that can be idle in a plain scene of some method, in that scene.
   for (const Setting& setting : settings()) {
     for (const std::string& method : method_names()) {
       SceneDescription d;
@@ -254,7 +254,7 @@ TEST_F(IdleKeys, AreRefusedLikeTheirFlagsWithTheirPlace) {
   EXPECT_GE(checked, 100);
 }
 
-TEST_F(IdleKeys, AtTheirDefaultSayWhatHoldsAnyway) {
+TEST_F(IdleKeys, AtTheirDefaultAreAccepted) {
   std::string text = to_toml({});
   EXPECT_THAT(text, HasSubstr("aperture"));
   EXPECT_NO_THROW(load_scene_file(write("plain.toml", text)));

@@ -94,7 +94,7 @@ TEST(GaussianProjection, LowPassIsAddedAndOpacityCapped) {
   EXPECT_NEAR(a.q(std::sqrt(a.shape.xx), 0.0), a.shape.xx * a.shape.yy / a.shape.determinant(), 1e-12);
 }
 
-// Whichever axis of the file is said to be up is up in the picture, and no turn is a mirror.
+// The axis that the file declares as up is up in the picture, and no turn is a mirror.
 TEST(GaussianProjection, UpIsUp) {
   for (const UpAxis up : {UpAxis::X, UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ}) {
     GaussianCloud cloud = make_synthetic_gaussians("cloud:3");
@@ -129,7 +129,7 @@ TEST(GaussianProjection, ColoursAreSeenFromTheEyeInTheFilesAxes) {
 }
 
 // N-8-82: nearest first.
-TEST(GaussianProjection, WhatIsBehindOrOutsideIsCulledAndTheRestSorted) {
+TEST(GaussianProjection, SplatsBehindOrOutsideAreCulledAndTheRestSorted) {
   GaussianCloud cloud = make_synthetic_gaussians("shells:400");
   const std::size_t usual = cloud.gaussians.size();
   GaussianDescription description = view(Projection::Perspective);
@@ -187,7 +187,7 @@ TEST(GaussianProjection, DepthOfMaximum) {
   EXPECT_LT(worst, 1e-5);
 }
 
-TEST(GaussianScene, LimitsAreToldAndTheMiddleIsRobust) {
+TEST(GaussianScene, LimitsAreReportedAndTheMiddleIsRobust) {
   GaussianCloud cloud = make_synthetic_gaussians("shells:400");
   const auto usual = scene_of(cloud, {});
   cloud.gaussians[7].position = glm::vec3(1e6F, -1e6F, 1e6F);  // one that went astray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaussians that cannot be drawn are dropped, counted and named; a file in which none is left is refused.
+// Gaussians that cannot be drawn are dropped, counted and named; a file without any valid one is refused.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -31,7 +31,7 @@ struct BadRow {
   const char* fault;
 };
 
-// The others are what they are without it.
+// The others do not change.
 TEST(GaussianRows, BadOnesAreDroppedAndNamed) {
   const GaussianCloud whole = make_synthetic_gaussians("shells:12");
   GaussianCloud others = whole;
@@ -125,7 +125,7 @@ TEST(GaussianRows, SplatFilesAsWell) {
   }
 }
 
-TEST(GaussianRows, NoneLeftIsRefused) {
+TEST(GaussianRows, FilesWithoutValidRowsAreRefused) {
   PlyTable table = twelve();
   for (std::size_t row = 0; row < 12; ++row) table = table.with("z", kInfinite, row);
   const TestFile file(".ply", table.text("binary_little_endian"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings over time: which value a frame gets, and what a [sequence] table may not say.
+// Settings over time: the value of each frame, and invalid [sequence] tables.
 #include "scene/sequence.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Sequence, AKernelsNumbersTakeOverFromItsName) {
   EXPECT_EQ(now.kernel_radius, 3.0);
 }
 
-TEST(Sequence, WhatHasNoTrackStaysAsItWas) {
+TEST(Sequence, PropertiesWithoutATrackStay) {
   SceneDescription still;
   still.volume = "point:5";
   still.camera.elevation = 77;
@@ -84,7 +84,7 @@ TEST_F(SequenceFile, IsReadFromASceneWhoseStillIgnoresIt) {
   EXPECT_EQ(load_scene_file(path).camera.azimuth, SceneDescription{}.camera.azimuth);
 }
 
-TEST_F(SequenceFile, WhatMakesNoSenseIsOneLineWithPlaceAndFix) {
+TEST_F(SequenceFile, ErrorsAreOneLineWithPlaceAndFix) {
   struct Bad {
     const char* table;
     std::vector<std::string> said;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of settings: limits, flags, scene.toml, for whatever the list holds.
+// The list of settings: limits, flags, scene.toml, for every setting in the list.
 #include "scene/settings.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 using SavedSettings = TemporaryFolder;
 
-/// Values just outside a setting's limits, as the text of a flag; NaN is no text.
+/// Values just outside a setting's limits, as the text of a flag; NaN cannot be written.
 template <class Kind>
 std::vector<double> outside(const Kind& kind) {
   if constexpr (std::is_same_v<Kind, Integer>) return {kind.low - 1.0, kind.high + 1.0};
@@ -65,7 +65,8 @@ TEST(Settings, LimitsAreCheckedForDescriptionsAndFlags) {
 }
 
 TEST_F(SavedSettings, EveryOneComesBackFromItsFlagAndFromTheSavedScene) {
-  // Each setting changed by its text, in a scene where it means something; saved, read again: equal setting by setting.
+  // Each setting changed by its text, in a scene where it has an effect; saved and read again: equal setting by
+  // setting.
   const SceneDescription plain;
   int changes = 0;
   for (const Setting& setting : settings()) {
@@ -84,7 +85,7 @@ TEST_F(SavedSettings, EveryOneComesBackFromItsFlagAndFromTheSavedScene) {
   EXPECT_GE(changes, 42);
 }
 
-TEST_F(SavedSettings, WhatMeansNothingIsNotSaved) {
+TEST_F(SavedSettings, SettingsWithoutEffectAreNotSaved) {
   SceneDescription d;
   d.footprint.texture.phases = 48;  // as demo:fire --splat-texture 0 leaves it
   EXPECT_THAT(to_toml(d), ::testing::Not(HasSubstr("phases")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a plan becomes arrays and scripts: chunks, ranges, words that survive a shell; scripts run by the shell itself.
+// Arrays and scripts of a plan: chunks, ranges, words that survive a shell; the shell itself runs the scripts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using cli_test::TempFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// All of `shards` to do, arrays of `array_max`.
+/// All of `shards` unfinished, arrays of `array_max`.
 Submission submission(std::size_t shards, std::size_t array_max) {
   Submission s{.name = "fs-bits-01234567",
                .what = "plan bits, 10 cases",
@@ -55,7 +55,7 @@ TEST(JobArrays, EveryShardIsOneTaskOfOneArrayWhateverTheLimit) {
   EXPECT_EQ(compared, 28);
 }
 
-TEST(JobArrays, WhatIsDoneIsNotSentAndNumbersStay) {
+TEST(JobArrays, FinishedCasesAreNotSentAndNumbersStay) {
   auto s = submission(10, 4);
   s.to_do = {2, 3, 10};
   const auto arrays = arrays_of(s);
@@ -75,7 +75,7 @@ TEST(JobArrays, RangesAreShort) {
   EXPECT_EQ(index_ranges({0, 1, 2, 5, 7, 8}), "0-2,5,7-8");
 }
 
-TEST(JobArrays, NamesOfJobsTellPlansAndFoldersApart) {
+TEST(JobArrays, NamesOfJobsDifferByPlanAndFolder) {
   const auto name = job_name("7 bits: head/ü", "0123", "/data/results");
   EXPECT_TRUE(std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '-' || c == '_';
@@ -85,7 +85,7 @@ TEST(JobArrays, NamesOfJobsTellPlansAndFoldersApart) {
   EXPECT_NE(name, job_name("7 bits: head/ü", "0123", "/data/other"));
 }
 
-TEST(SlurmScript, SaysWhatSlurmIsTold) {
+TEST(SlurmScript, PrintsTheSlurmScript) {
   auto s = submission(2500, 1001);
   s.partition = "long";
   s.time = "1:30:00";
@@ -105,11 +105,11 @@ TEST(SlurmScript, SaysWhatSlurmIsTold) {
   EXPECT_THAT(sbatch_merge(s, {"7", "9"}),
               ElementsAre("sbatch", "--parsable", "--dependency=afterany:7:9", "/data/results/submit/merge.sbatch"));
   EXPECT_THAT(sbatch_merge(s, {}), ElementsAre("sbatch", "--parsable", "/data/results/submit/merge.sbatch"));
-  // A directive after the first command is none.
+  // A directive after the first command has no effect.
   EXPECT_LT(script.rfind("#SBATCH"), script.find("\nfor "));
 }
 
-TEST(ScriptEngines, LsfAndSgeAreToldTheSame) {
+TEST(ScriptEngines, LsfAndSgeGetTheSameRequests) {
   auto s = submission(1500, 1000);
   s.partition = "long";
   s.time = "90:30";  // minutes and seconds
@@ -136,7 +136,7 @@ TEST(Durations, AsSbatchReadsThem) {
     EXPECT_THROW(seconds_from(bad), UserError) << bad;
 }
 
-/// Scripts of a stand-in for the program, in folders whose names need every quote there is.
+/// Scripts for a stub of the program, in folders whose names need every kind of quoting.
 class Scripts : public testing::Test {
  protected:
   Scripts() {
@@ -155,7 +155,7 @@ class Scripts : public testing::Test {
   void write_file(const std::string& name, const std::string& text) const {
     std::ofstream(s_.folder / name, std::ios::binary) << text;
   }
-  /// What the stand-in was told, a word a line; forgotten then.
+  /// The arguments that the stub was called with, one a line; reading clears them.
   std::string said() const {
     const auto text = read_bytes(s_.folder / "said");
     std::filesystem::remove(s_.folder / "said");
@@ -196,7 +196,7 @@ TEST_F(Scripts, ATaskRunsItsShardInTheFolderOfTheCommand) {
   }
 }
 
-TEST_F(Scripts, TheCommandListNamesWhatIsToDo) {
+TEST_F(Scripts, TheCommandListNamesThePendingCases) {
   s_.to_do = {3, 5};
   const auto list = engine_scripts(s_).back().text;
   EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2);
@@ -213,7 +213,7 @@ TEST_F(Scripts, AMachineThatDoesNotSeeTheFoldersSaysSo) {
   EXPECT_EQ(said(), "");
 }
 
-TEST_F(Scripts, TheMergeNamesWhatIsLostAndKeepsItsExitCode) {
+TEST_F(Scripts, TheMergeNamesLostCasesAndKeepsItsExitCode) {
   for (const int code : {0, 1, 3}) {
     const auto ran = shell(slurm_merge_script(s_), {"MERGE=" + std::to_string(code)});
     EXPECT_EQ(ran.code, code);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Merged results looked at: tables, CSV, the Pareto front.
+// Views of merged results: tables, CSV, the Pareto front.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ plan::Merged rows_of(const std::vector<std::pair<double, double>>& points) {
 
 std::vector<const plan::Row*> all(const plan::Merged& merged) { return plan::chosen_rows(merged, {}); }
 
-TEST(PlanPareto, IsWhatNoOtherBeats) {
+TEST(PlanPareto, HasTheUndominatedCases) {
   std::mt19937 random(7);
   std::vector<std::pair<double, double>> points;
   for (int n = 0; n < 300; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Specifications expanded: which cases, in which order, and what their names depend on.
+// Expanded specifications: the cases, their order, and the inputs of their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(PlanMake, ComparesWithOneGoldenPictureOfAScene) {
                 golden + " model.exr --min-psnr 48");
 }
 
-TEST(PlanMake, NamesAreStableAndTellEverythingApart) {
+TEST(PlanMake, NamesAreStableAndUnique) {
   const Folder folder;
   const auto ids = [&](const std::string& spec) {
     std::set<std::string> out;
@@ -69,7 +69,7 @@ TEST(PlanMake, NamesAreStableAndTellEverythingApart) {
                             "kind = \"cycles\"\n[constants]\nvolume = \"v\"\n[axes]\nn = [1, 2]\n"}) {
     for (const auto& id : ids(other)) EXPECT_FALSE(first.contains(id)) << other;
   }
-  // What is behind the names, and nothing else: the commands are the same.
+  // The inputs of the names, and nothing else: the commands are the same.
   auto changed = vocabulary();
   changed.content = [](const plan::Settings&, const std::vector<std::string>&) { return plan::Content{"other", "s"}; };
   for (const auto& one :
@@ -78,7 +78,7 @@ TEST(PlanMake, NamesAreStableAndTellEverythingApart) {
     EXPECT_FALSE(first.contains(one.id));
 }
 
-TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
+TEST(PlanMake, RefusesSettingsWithoutEffectWithTheLine) {
   const Folder folder;
   const std::pair<const char*, const char*> wrong[] = {
       {"kind = \"cycles\"\n[axes]\nn = []\n", "spec.toml:3:5: n has no value"},
@@ -97,7 +97,7 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
        "spec.toml:3:8: axis = \"n\" names the label column, but n is also a setting"},
       {"kind = \"cycles\"\n[constants]\nn = 1\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nvolume = [\"v\"]\n",
        "spec.toml:5:8: axis = \"n\" names the label column"},
-      // A name of the specification's own must not hide a figure.
+      // A name in a specification must not hide a figure.
       {"kind = \"cycles\"\n[[zip]]\naxis = \"cycles\"\nlabel = [1]\nn = [1]\n",
        "spec.toml:3:8: 'cycles' is the name of a built-in column"},
       {"kind = \"cycles\"\n[[zip]]\naxis = \"status\"\nlabel = [1]\nn = [1]\n",
@@ -114,7 +114,7 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
   std::printf("[figure] wrong_specifications = %zu (limit > 0)\n", std::size(wrong));
 }
 
-TEST(PlanMake, LeavesOutWhatIsRefusedOnlyWhereAsked) {
+TEST(PlanMake, OmitsRefusedCasesOnRequestOnly) {
   const Folder folder;
   auto picky = vocabulary();
   picky.check = [](const plan::Words& words) {
@@ -130,7 +130,7 @@ TEST(PlanMake, LeavesOutWhatIsRefusedOnlyWhereAsked) {
   EXPECT_EQ(made.left_out, std::vector<std::string>{"n=2: --n: no"});
 }
 
-TEST(PlanMake, AFileThatWasChangedIsNoPlan) {
+TEST(PlanMake, ChangedFilesAreRefused) {
   const Folder folder;
   const std::string text = json_text(plan::to_json(plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 2]\n")), 1);
   EXPECT_EQ(plan::read_plan(folder.write("p.json", text)).cases.size(), 2u);
@@ -141,7 +141,7 @@ TEST(PlanMake, AFileThatWasChangedIsNoPlan) {
   EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("invalid shard"));
 }
 
-/// With every hash computed again, a plan from elsewhere still runs nothing but what plan make writes.
+/// Even with every hash recomputed, a foreign plan runs nothing but commands that plan make writes.
 TEST(PlanMake, AForgedPlanIsRefused) {
   const Folder folder;
   const auto honest = plan_of(folder, "kind = [\"compare\", \"verify\"]\n[axes]\nn = [1, 2]\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NIfTI files written by hand: versions, byte orders, scaling, axes, pairs, and everything that must be refused.
+// NIfTI files written by hand: versions, byte orders, scaling, axes, pairs, and refused ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -109,7 +109,7 @@ TEST_F(Nifti, ReadsBothVersionsBothByteOrdersPlainAndGzip) {
       for (const bool packed : {false, true}) {
         const std::string bytes = header.bytes() + data;
         const Volume volume =
-            load_volume(write("v.nii", packed ? gzip(bytes) : bytes).string());  // told by content, not name
+            load_volume(write("v.nii", packed ? gzip(bytes) : bytes).string());  // by content, not name
         EXPECT_THAT(volume.voxels, ElementsAre(-2, 1, 258, 3, -32768, 32767, 6, 7));
         EXPECT_EQ(volume.spacing, glm::dvec3(0.5, 1.25, 3));
         EXPECT_EQ(volume.stored, VoxelType::I16);
@@ -129,8 +129,8 @@ TEST_F(Nifti, ScalingIsApplied) {
   EXPECT_EQ(unscaled.stored, VoxelType::U8);
 }
 
-TEST_F(Nifti, ScalingThatIsNoNumberMeansNone) {
-  // Some writers put NaN where nothing was said.
+TEST_F(Nifti, InvalidScalingIsIgnored) {
+  // Some writers put NaN into unused fields.
   EXPECT_THAT(load({.slope = NAN, .intercept = NAN}, kBytes).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
 
@@ -143,7 +143,7 @@ TEST_F(Nifti, UnitsBecomeMillimetres) {
 
 TEST_F(Nifti, AxesAreTurnedToRightAnteriorSuperior) {
   EXPECT_THAT(load({.sform = 1}, kBytes).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
-  // x runs to the left, as radiologists like it.
+  // x runs to the left, the radiological convention.
   EXPECT_THAT(load({.sform = 1, .rows = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, kBytes).voxels,
               ElementsAre(2, 1, 4, 3, 6, 5, 8, 7));
   // i runs up, k to the right.
@@ -153,7 +153,7 @@ TEST_F(Nifti, AxesAreTurnedToRightAnteriorSuperior) {
   EXPECT_EQ(sagittal.spacing, glm::dvec3(2, 1, 3));
 }
 
-TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
+TEST_F(Nifti, AnUnusableFormIsReportedAndTheOtherUsed) {
   for (const std::array<double, 12>& rows : {std::array<double, 12>{},
                                              {NAN, 0, 0, 0, 0, INFINITY, 0, 0, 0, 0, 1, 0},
                                              {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0}}) {
@@ -172,8 +172,8 @@ TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
   }
 }
 
-// libnifti2 makes what is not finite 0, and shortens a rotation that is too long.
-TEST_F(Nifti, AQformThatIsNoRotationIsNotUsed) {
+// libnifti2 makes non-finite values 0, and shortens a rotation that is too long.
+TEST_F(Nifti, AQformThatIsNotARotationIsNotUsed) {
   int unusable = 0;
   for (const int version : {1, 2}) {
     for (const auto& quaternion : {std::array<double, 3>{NAN, 0.0, 1.0}, {0.0, INFINITY, 0.0}, {2.0, 2.0, 2.0}}) {
@@ -192,7 +192,7 @@ TEST_F(Nifti, ScalingIsNotHalfApplied) {
   EXPECT_THAT(refused({.slope = INFINITY}), HasSubstr("the header's value scaling is not a number"));
 }
 
-TEST_F(Nifti, AnUnknownUnitIsSaid) {
+TEST_F(Nifti, AnUnknownUnitIsReported) {
   EXPECT_THAT(load({.units = 7}, kBytes).remarks, ElementsAre(HasSubstr("unit of length, code 7, is unknown: mm")));
 }
 
@@ -202,7 +202,7 @@ TEST_F(Nifti, WideIntegersAreRead) {
   EXPECT_EQ(labels.stored, VoxelType::I8);
   EXPECT_THAT(load({.datatype = 1280}, bytes_of<std::uint64_t>({0, 1, 2, 3, 4, 5, 6, 70000})).voxels,
               ElementsAre(0, 1, 2, 3, 4, 5, 6, 70000));
-  // Scaled counts are floats like any other; the scale's rounding needs no word.
+  // Scaled counts are floats like any other; the rounding of the scale is not reported.
   const Volume counts =
       load({.datatype = 8, .slope = 0.1}, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, 16777217, 100000001}));
   EXPECT_FLOAT_EQ(counts.at(1, 1, 1), 1e7f);
@@ -234,7 +234,7 @@ TEST_F(Nifti, PairsReadTheImgBesideTheHdr) {
   EXPECT_THAT(refusal([&] { load(header, "", "inside/v.hdr"); }), HasSubstr("link to outside"));
 }
 
-TEST_F(Nifti, RefusesWhatIsNoVolume) {
+TEST_F(Nifti, RefusesFilesThatAreNotVolumes) {
   EXPECT_THAT(refused({.dim = {4, 2, 2, 2, 2, 1, 1, 1}}), HasSubstr("got 2 x 2 x 2 x 2"));
   EXPECT_THAT(refused({.dim = {2, 4, 2, 1, 1, 1, 1, 1}}), HasSubstr("3 dimensions"));
   EXPECT_THAT(refused({.datatype = 128}), HasSubstr("voxel type"));  // RGB

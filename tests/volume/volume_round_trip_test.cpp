@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What save_volume writes, load_volume reads back the same: every type and format.
+// load_volume reads back what save_volume wrote, in every type and format.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -30,7 +30,7 @@ class RoundTrip : public TemporaryFolder, public ::testing::WithParamInterface<s
 };
 
 TEST_P(RoundTrip, KeepsEveryVoxelAndTheSpacing) {
-  // Names of their own: Clang 14 takes no structured binding into a lambda.
+  // Separate names: Clang 14 captures no structured binding in a lambda.
   const auto& kind = std::get<0>(GetParam());
   const auto& ending = std::get<1>(GetParam());
   const float step = (kind.high - kind.low) / 59.0f;
@@ -114,13 +114,13 @@ TEST_F(SaveVolume, AFullDiskLeavesNothingBehind) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{.rlim_cur = 8192, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  std::vector<std::string> told;
+  std::vector<std::string> refusals;
   for (const char* name : {"v.nrrd", "v.nhdr", "v.nii", "v.nii.gz", "v.mha", "v.mhd"}) {
-    told.push_back(refusal([&] { save_volume(noise, folder_ / name, VoxelType::U8); }));
+    refusals.push_back(refusal([&] { save_volume(noise, folder_ / name, VoxelType::U8); }));
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  for (const auto& message : told) EXPECT_THAT(message, HasSubstr("cannot write"));
+  for (const auto& message : refusals) EXPECT_THAT(message, HasSubstr("cannot write"));
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 

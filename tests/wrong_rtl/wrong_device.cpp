@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
+// The RTL of tiny with a false tap: every seventh splat of a tile has its sheet words inverted.
 #include "testbench/device/passing_device.hpp"
 #include "testbench/device/rtl_module.hpp"
 #include "testbench/device/verilated_device.hpp"
@@ -34,7 +34,7 @@ class LyingTaps final : public RawTapSink {
 /// Holds the taps for as long as the device lives: a base of the device's own base class.
 struct Lies {
   LyingTaps taps;
-  RtlOptions told(RtlOptions options) {
+  RtlOptions tapped(RtlOptions options) {
     if (options.taps != nullptr) options.taps = &taps;
     return options;
   }
@@ -43,7 +43,7 @@ struct Lies {
 class WrongDevice final : private Lies, public PassingDevice {
  public:
   WrongDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& given)
-      : Lies{LyingTaps(given.taps)}, PassingDevice(make_true(config, pixels, told(given))) {}
+      : Lies{LyingTaps(given.taps)}, PassingDevice(make_true(config, pixels, tapped(given))) {}
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function string fastsplat_checker_first_mismatch(input chandle judge);
   import "DPI-C" function string fastsplat_checker_summary(input chandle judge);
 
-  // What the device shows and takes, in the order of its cycles, within a cycle in this order; tile: tap_tile_o.
+  // The device's outputs and taken beats, in the order of its cycles, within a cycle in this order; tile: tap_tile_o.
   import "DPI-C" function int fastsplat_dpi_snap(
     input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
     input int unsigned x, input int unsigned y, input int unsigned mx, input int unsigned my);
@@ -50,7 +50,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function int fastsplat_pattern_create(
     input string text, input longint unsigned seed, output chandle pattern);
   import "DPI-C" function int fastsplat_pattern_at(
-    input chandle pattern, input longint unsigned cycle, output int willing);
+    input chandle pattern, input longint unsigned cycle, output int ready);
 
   // Number of 32-bit words of a vector.
   function automatic int unsigned words_of(input int unsigned bits);

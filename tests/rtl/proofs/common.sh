@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-# common.sh: what the proof scripts share; sourced by them with `source` (the repository) and `work` (a folder) set, `emit` of those that need the
-# package of tiny, and `short` of those that take it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
+# common.sh: shared by the proof scripts, which source it with `source` (the repository) and `work` (a folder) set, `emit` if they need the
+# package of tiny, and `short` if they accept it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
 [ -z "${short-}" ] || [ "$short" = short ] || { echo "$0: not '$short' but short" >&2; exit 2; }
 mkdir -p "$work"
 here="$source/tests/rtl/proofs"
 : >"$work/proofs.txt"
 [ -z "${emit-}" ] || "$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
 
-# FASTSPLAT_PROVE_ONLY=NAME: only the unit NAME; what belongs to another one (not NAME nor NAME_...) is passed over.
-# passed_over NAME: that is so of NAME.
+# FASTSPLAT_PROVE_ONLY=NAME: only the unit NAME; other units (neither NAME nor NAME_...) are skipped.
+# passed_over NAME: succeeds if NAME is skipped.
 passed_over() {
   case $1 in "${FASTSPLAT_PROVE_ONLY:-$1}" | "${FASTSPLAT_PROVE_ONLY:-$1}"_*) return 1 ;; esac
 }
-# A script that proved nothing has not passed.
+# A script that proved nothing fails.
 trap 'status=$?; [ $status -ne 0 ] || [ -s "$work/proofs.txt" ] || { echo "$0: nothing proved${FASTSPLAT_PROVE_ONLY:+, there is no unit $FASTSPLAT_PROVE_ONLY here}"; exit 1; }' EXIT
 
 seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }
@@ -21,8 +21,8 @@ seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to -
 rtl_of() { echo "fastsplat_${1#fastsplat_}"; }
 file_of() { find "$source/rtl" -name "$(rtl_of "$1").sv"; }
 
-# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
-# compares all 256 bits; pixel out's specification says more.)
+# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 does not end on pixel_payload_held, which
+# compares all 256 bits; pixel out's specification is stronger.)
 with_spec() {
   awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$(file_of "$1")"
 }
@@ -43,9 +43,9 @@ package() {
   cat "$work/package.new"
 }
 
-# unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE it, the
-# modules CUT with free outputs: whatever they say, as do $cut_wires. $connects ties undriven names of a specification to registers below. EDIT breaks
-# a line of the module FILE; lines of the specification with $without in them are left out.
+# unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE
+# it. The modules CUT have free outputs, as have $cut_wires. $connects ties undriven names of a specification to
+# registers below. EDIT breaks a line of the module FILE. Lines of the specification that contain $without are left out.
 unit() {
   if passed_over "$1"; then return; fi
   name=$1 module=$2 beside=$3 cut=$4 file=${5-} edit=${6-}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What check makes of any beats whatsoever (docs/microarchitecture.md, "Check"; docs/stream.md, "Rules by number"), written again from
-// the pages and put inside stream_check by prove_control.sh. What comes is garbage, held or not; decode, the rest behind it, enable and
-// soft resets do what they will. Up to the first refusal beats pass in order, each once and as it came; then nothing does, but what is
-// open is closed; and what passes is what decode's proof assumes.
+// Check on arbitrary beats (docs/microarchitecture.md, "Check"; docs/stream.md, "Rules by number"), written again from
+// the pages and put inside stream_check by prove_control.sh. The input is arbitrary, held or not; decode, the units
+// behind it, enable and soft resets are free. Up to the first refusal beats pass in order, once and unchanged. Then
+// none passes, but open sheets and tiles are closed. Passed beats satisfy the stream invariants.
 localparam int CB = fastsplat_pkg::COLOUR_BITS;
 localparam int P = fastsplat_pkg::LANES;
 logic f_started = 1'b0;
@@ -10,7 +10,7 @@ always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
 `ifdef F_FEW_BEATS
-// Where something has to be found, not proved: one good beat of each kind, and one that is none.
+// For covers, where z3 must find a beat: one good beat of each kind, and one illegal beat.
 (* anyseq *) logic [3:0] f_which;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_few;
 always @* begin
@@ -46,8 +46,8 @@ assign f_passed_data = data_o;
 assign f_passed_payload = payload_o;
 assign f_passed_aborted = aborted_o;
 assign f_passed_extent = extent_o;
-`define F_PROMISE(ALWAYS) assert (ALWAYS)
-`include "judged_beats.svh"
+`define F_INVARIANT(ALWAYS) assert (ALWAYS)
+`include "stream_invariants.svh"
 
 // The beats that were taken and did not pass yet: the elder is checked (M-check-1).
 logic f_next_q, f_have_q;
@@ -240,7 +240,8 @@ always @(posedge clk_i) begin
   end
 end
 
-// Cycles without ready in which nobody else is to blame: one for a refusal; for a soft reset both beats, end_sheet, end_tile and its end.
+// Cycles without ready that check itself causes: one for a refusal; for a soft reset both beats, end_sheet, end_tile
+// and its end.
 logic [2:0] f_waits_q, f_phase;
 always @(posedge clk_i) f_waits_q <= rst_ni && enable_i && ready_i && idle_i && !reset_i && !ready_o ? f_waits_q + 3'(f_waits_q != '1) : '0;
 assign f_phase = f_next_q ? 3'd0 : f_have_q ? 3'd1 : f_place_q == 2'd3 ? 3'd2 : f_place_q == 2'd2 ? 3'd3 : 3'd4;
@@ -257,7 +258,7 @@ always @(posedge clk_i) begin
   end
 end
 
-// What first stage counts: as if the beat that is judged had passed, and its own as well, if it is not new.
+// Counts of the first stage: as if the beat in the second stage had passed, and its own too, if it is not new.
 logic f_tile_to_come, f_sheet_to_come, f_next_counted;
 logic [31:0] f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to;
 logic [31:0] f_tile_on, f_sheet_on, f_sheets_on, f_splats_on, f_tags_on;
@@ -318,7 +319,7 @@ always @* begin
     assert (error_o == f_error_q);
     assert (error_rule_o == f_error_rule_q && error_opcode_o == f_error_opcode_q && error_beat_o == f_error_number_q);
     assert (busy_o == (f_next_q || f_have_q || f_closes || f_soft_q));
-    // Nobody waits for long.
+    // No wait is long.
     assert (f_waits_q <= 3'd5 && (f_soft_q || f_have_q || f_error_q || f_waits_q == '0 || f_place_q == 2'd0));
 
     // For induction: the registers of check and of the specification say the same.

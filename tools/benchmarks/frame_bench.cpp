@@ -23,11 +23,11 @@ using bench::plain_rows;
 using bench::scene_of;
 
 void device_frame(benchmark::State& state, const std::string& volume, int size, const std::string& config,
-                  driver::Unit unit, int threads) {
+                  driver::Unit unit, int threads, bool counters) {
   const scene::Scene& scene = scene_of(volume, size);
   const cmodel::Config device = driver::load_config(config);
   driver::DeviceRender frame;
-  for (auto _ : state) frame = driver::render(scene, device, {.threads = threads, .unit = unit});
+  for (auto _ : state) frame = driver::render(scene, device, {.threads = threads, .unit = unit, .counters = counters});
   state.counters["splats"] = static_cast<double>(frame.counters.splats);
   state.counters["hidden"] = static_cast<double>(frame.units.hidden_splats);
   state.counters["redone"] = static_cast<double>(frame.units.redone);
@@ -49,8 +49,8 @@ void golden_frame(benchmark::State& state, int size, scene::Method method, bool 
 const bool kRegistered = [] {
   using driver::Unit;
   const auto frame = [](const std::string& name, const std::string& volume, int size, const std::string& config,
-                        Unit unit, int threads = 1) {
-    auto* line = benchmark::RegisterBenchmark(name.c_str(), device_frame, volume, size, config, unit, threads);
+                        Unit unit, int threads = 1, bool counters = true) {
+    auto* line = benchmark::RegisterBenchmark(name.c_str(), device_frame, volume, size, config, unit, threads, counters);
     line->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
     if (threads > 1) line->UseRealTime();
   };
@@ -58,11 +58,16 @@ const bool kRegistered = [] {
     for (const char* config : {"base", "compact", "tiny"}) {
       frame(std::string("plain/head512/") + config, kHead, 512, config, Unit::Plain);
       frame(std::string("fast/head512/") + config, kHead, 512, config, Unit::Fast);
+      frame(std::string("picture/head512/") + config, kHead, 512, config, Unit::Fast, 1, false);
     }
+    for (const int size : {128, 1024})
+      frame("picture/head" + std::to_string(size) + "/base", kHead, size, "base", Unit::Fast, 1, false);
     for (const int size : {128, 256, 1024, 2048})
       frame("fast/head" + std::to_string(size) + "/base", kHead, size, "base", Unit::Fast);
     frame("wall1/head512/base", kHead, 512, "base", Unit::Fast);
     frame("wall2/head512/base", kHead, 512, "base", Unit::Fast, 2);
+    frame("wall1/picture512/base", kHead, 512, "base", Unit::Fast, 1, false);
+    frame("wall2/picture512/base", kHead, 512, "base", Unit::Fast, 2, false);
     const auto golden = [](const char* name, int size, scene::Method method, bool plain, int threads = 1) {
       auto* line = benchmark::RegisterBenchmark(name, golden_frame, size, method, plain, threads);
       line->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
@@ -76,8 +81,10 @@ const bool kRegistered = [] {
     golden("wall1/head512/golden", 512, Method::ImageAligned, false);
     golden("wall2/head512/golden", 512, Method::ImageAligned, false, 2);
   }
-  for (const char* config : {"base", "compact"})
+  for (const char* config : {"base", "compact"}) {
     frame(std::string("fast/shells256/") + config, "shells:256", 512, config, Unit::Fast);
+    frame(std::string("picture/shells256/") + config, "shells:256", 512, config, Unit::Fast, 1, false);
+  }
   for (const char* config : {"compact", "base"}) {
     for (const int extent : {5, 7, 9, 16}) {
       const std::string what = "/rows" + std::to_string(extent) + "/" + config;

@@ -63,9 +63,10 @@ void golden_frame(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) benchmark::DoNotOptimize(golden_of(scene(subject)).data.data());
 }
 
-void device_frame(benchmark::State& state, const Subject& subject, const std::string& config) {
+void device_frame(benchmark::State& state, const Subject& subject, const std::string& config, bool counters) {
   const cmodel::Config device = driver::load_config(config);
-  for (auto _ : state) benchmark::DoNotOptimize(driver::render(scene(subject), device, {.threads = 1}).frame);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(driver::render(scene(subject), device, {.threads = 1, .counters = counters}).frame);
 }
 
 /// Compares two pictures as a line of the results; throws below either minimum.
@@ -186,8 +187,10 @@ void register_frames(const Subject& subject) {
   line("vtk", [subject](benchmark::State& state) { vtk_frame(state, subject); });
   line("vtk-first", [subject](benchmark::State& state) { vtk_first_frame(state, subject); });
   line("golden", [subject](benchmark::State& state) { golden_frame(state, subject); });
-  for (const char* config : {"base", "compact"})
-    line(config, [subject, config](benchmark::State& state) { device_frame(state, subject, config); });
+  for (const std::string config : {"base", "compact"}) {
+    line(config, [subject, config](benchmark::State& state) { device_frame(state, subject, config, false); });
+    line(config + "-counted", [subject, config](benchmark::State& state) { device_frame(state, subject, config, true); });
+  }
 }
 
 }  // namespace

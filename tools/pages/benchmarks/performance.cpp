@@ -25,6 +25,9 @@ constexpr Race kRaces[] = {
     {"head 512², `base`: plain / fast unit", "plain/head512/base", "fast/head512/base", 10},
     {"head 512², `compact`: plain / fast unit", "plain/head512/compact", "fast/head512/compact", 15},
     {"head 512², `tiny`: plain / fast unit", "plain/head512/tiny", "fast/head512/tiny", 8},
+    {"head 512², `base`: plain unit / picture without counters", "plain/head512/base", "picture/head512/base", 20},
+    {"head 512², `compact`: the same", "plain/head512/compact", "picture/head512/compact", 20},
+    {"head 512², `tiny`: the same", "plain/head512/tiny", "picture/head512/tiny", 20},
     {"head 512², golden: plain / fast", "plain/head512/golden", "fast/head512/golden", 2},
     {"head 128², golden's rays: plain / fast", "plain/rays128/golden", "fast/rays128/golden", 1.5},
     {"head 512², perspective, ellipses: plain / fast unit", "plain/perspective512/ellipse",
@@ -62,6 +65,7 @@ void print_races(const Results& results) {
       print_goal(race.what, ratio(slow->cpu, fast->cpu), Goal::AtLeast, race.goal);
   }
   print_threads(results, "head 512², `base`, fast", "head512/base");
+  print_threads(results, "the same, without counters", "picture512/base");
   print_threads(results, "head 512², golden, fast", "head512/golden");
 }
 

@@ -107,10 +107,7 @@ void check_outputs(const OutputNames& names) {
     take(path);
   }
   for (const auto& path : names.others) take(path);
-  const auto named = [](const std::string& path) { return !path.empty(); };
-  for (const auto* pictures : {&names.images, &names.maps, &names.raws}) {
-    if (std::any_of(pictures->begin(), pictures->end(), named)) images::require_library();
-  }
+  for (const auto& path : names.images) images::require_library(path);
 }
 
 void require_file(const char* flag, const std::string& path) {

@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "base/lower_case.hpp"
 #include "base/machine_error.hpp"
 
 namespace fastsplat::images {
@@ -70,7 +71,10 @@ const Codec& codec() {
   return table;
 }
 
-void require_library() { codec(); }
+void require_library(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  if (ending != ".png" && ending != ".exr") codec();
+}
 
 std::string library_version() { return codec().version(); }
 

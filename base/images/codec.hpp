@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface between base/images/ and the image library: a table of functions in a module that is opened when a
-// picture is first read or written. Only that module, base/images/openimageio/, includes OpenImageIO.
+// The interface between base/images/ and OpenImageIO: a table of functions in a module that is opened when a TIFF or
+// JPEG is first read or written. Only that module, base/images/openimageio/, includes OpenImageIO.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files: EXR (float, half, raw integer words), PNG (8/16), TIFF (8/16/float); JPEG is read only. OpenImageIO
-// decodes and encodes. It is loaded at the first picture, because loading takes 0.2 s and 100 MB.
+// Image files: EXR (float, half, raw integer words) by OpenEXR, PNG (8/16) by libpng, TIFF (8/16/float) by OpenImageIO;
+// JPEG is read only. OpenImageIO is loaded at the first TIFF or JPEG, because loading takes 0.2 s and 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +37,10 @@ struct LoadedImage {
   Metadata metadata;
 };
 
-/// Loads OpenImageIO now, so that a run that will write pictures fails before its work. Throws UserError (Input) if the
-/// module or a library it needs is missing, or if it belongs to another build. All functions below may throw it, too.
-void require_library();
+/// Loads OpenImageIO now if a picture of this name needs it, so that a run fails before its work. Throws UserError
+/// (Input) if the module or a library it needs is missing, or if it belongs to another build. All functions below may
+/// throw it, too.
+void require_library(const std::filesystem::path& path);
 
 /// Version of OpenImageIO at run time, "2.4.7". Loads it.
 std::string library_version();

@@ -11,8 +11,10 @@
 #include "base/images/codec.hpp"
 #include "base/images/encoding.hpp"
 #include "base/images/exr_check.hpp"
+#include "base/images/exr_codec.hpp"
 #include "base/images/image_file.hpp"
 #include "base/images/png_check.hpp"
+#include "base/images/png_codec.hpp"
 #include "base/images/png_declared.hpp"
 #include "base/images/tiff_declared.hpp"
 #include "base/machine_error.hpp"
@@ -107,7 +109,10 @@ LoadedImage read_image(const std::filesystem::path& path) {
     // The decoder fills the missing part of a truncated file with grey.
     if (std::strcmp(format, "jpeg") == 0 && file.rfind("\xff\xd9") == std::string::npos)
       refuse({{}, "corrupt or truncated JPEG: its end is missing", {}, {}, "write the file again"});
-    if (auto refusal = codec().decode(format, file, loaded)) {
+    auto refusal = png   ? decode_png(file, loaded)
+                   : exr ? decode_exr(file, loaded)
+                         : codec().decode(format, file, loaded);
+    if (refusal) {
       if (refusal->what == kNoMemory) throw std::bad_alloc();
       refuse(std::move(*refusal));
     }

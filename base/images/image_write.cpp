@@ -8,7 +8,9 @@
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/images/codec.hpp"
+#include "base/images/exr_codec.hpp"
 #include "base/images/image_file.hpp"
+#include "base/images/png_codec.hpp"
 #include "base/lower_case.hpp"
 #include "base/srgb.hpp"
 #include "base/version.hpp"
@@ -42,7 +44,9 @@ void write_encoded(const std::filesystem::path& path, Encoding picture) {
   picture.name = path.filename().string();
   picture.software = "FastSplat " + program_version();
   std::vector<unsigned char> bytes;
-  const std::string defect = codec().encode(picture, bytes);
+  const std::string defect = picture.format == "png"       ? encode_png(picture, bytes)
+                             : picture.format == "openexr" ? encode_exr(picture, bytes)
+                                                           : codec().encode(picture, bytes);
   if (!defect.empty()) throw_input({path.string(), "cannot encode as " + picture.format + ": " + defect, {}, {}, {}});
   write_text_file(path, std::string(bytes.begin(), bytes.end()));
 }

@@ -187,6 +187,17 @@ TEST_F(Declared, ATurnedImageIsRefused) {
     write(name, {"R", "G", "B"}, [](OIIO::ImageSpec& spec) { spec.attribute("Orientation", 6); });
     EXPECT_THAT(refused(name), HasSubstr("orientation 6")) << name;
   }
+  // EXIF of either byte order: a list of one entry, orientation (274), one SHORT.
+  const std::string big("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0", 26),
+      little("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0", 26);
+  for (const std::string& exif : {big, little}) {
+    const std::string why = refusal(ExitCode::Input, [&] { png(3, 8, 0, {"abc"}, chunk("eXIf", exif)); });
+    EXPECT_THAT(why, HasSubstr("orientation 6"));
+  }
+  std::string upright = big;
+  upright[19] = 1;
+  EXPECT_EQ(png(3, 8, 0, {"abc"}, chunk("eXIf", upright)).image.width, 3);
+  EXPECT_EQ(png(3, 8, 0, {"abc"}, chunk("eXIf", big.substr(0, 12))).image.width, 3) << "cut: no orientation";
 }
 
 /// A TIFF of one 8-bit strip by its tags, each of one or more SHORTs.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -13,28 +12,23 @@
 #include <utility>
 
 #include "base/images/encoding.hpp"
-#include "base/images/openimageio/attributes.hpp"
+#include "base/images/image_channels.hpp"
+#include "base/images/metadata_text.hpp"
 #include "base/images/openimageio/operations.hpp"
+#include "base/images/picture_limits.hpp"
 
 namespace fastsplat::images {
 namespace {
 
 using OIIO::TypeDesc;
 
-constexpr int kLargestSide = 1 << 16;
-constexpr std::int64_t kMostValues = std::int64_t{1} << 31;
 constexpr std::int64_t kBlockValues = std::int64_t{1} << 22;  // decoded at once: limits the cost of a wrong header
 
 constexpr const char* kUnnamed = "image";  // name for the decoders; our message gives the path
 constexpr const char* kAgain = "write the file again";
 
-/// Why a picture is refused; caught in this file.
-struct Refused {
-  ErrorParts parts;
-};
-
 [[noreturn]] void refuse(std::string what, std::string expected = {}, std::string got = {}, std::string fix = {}) {
-  throw Refused{{{}, std::move(what), std::move(expected), std::move(got), std::move(fix)}};
+  throw Refused(std::move(what), std::move(expected), std::move(got), std::move(fix));
 }
 
 class Decoder {
@@ -51,7 +45,7 @@ class Decoder {
   LoadedImage load() {
     check_header();
     LoadedImage loaded;
-    loaded.metadata = get_metadata(spec_);
+    read_metadata_lines(std::string(spec_.get_string_attribute("ImageDescription")), loaded.metadata);
     loaded.kind = kind();
     loaded.image.width = spec_.width;
     loaded.image.height = spec_.height;
@@ -72,7 +66,7 @@ class Decoder {
         values = unit_values(samples<std::uint16_t>(TypeDesc::UINT16), 65535.0);
         break;
       case PixelKind::RawWords:
-        loaded.frac_bits = frac_bits(loaded.metadata);
+        loaded.frac_bits = frac_bits_of(loaded.metadata);
         loaded.words = samples<std::uint32_t>(TypeDesc::UINT32);
         values = unit_values(loaded.words, std::ldexp(1.0, loaded.frac_bits));
         break;
@@ -93,14 +87,9 @@ class Decoder {
 
   void check_header() {
     if (spec_.deep || spec_.depth != 1) refuse("deep or volume image", "a flat image");
-    if (spec_.width < 1 || spec_.height < 1 || spec_.width > kLargestSide || spec_.height > kLargestSide) {
-      refuse("unsupported image size", "sides of 1 to " + std::to_string(kLargestSide), size_text());
-    }
+    if (auto refusal = size_refusal(spec_.width, spec_.height, spec_.nchannels)) throw Refused(std::move(*refusal));
     const int channels = spec_.nchannels;
-    find_channels();
-    if (std::int64_t{spec_.width} * spec_.height * channels > kMostValues) {
-      refuse("image too large", "at most 2^31 values", size_text());
-    }
+    order_ = channel_order(spec_.channelnames);
     const bool whole = spec_.x == spec_.full_x && spec_.y == spec_.full_y && spec_.width == spec_.full_width &&
                        spec_.height == spec_.full_height;
     if (!whole) {
@@ -119,40 +108,10 @@ class Decoder {
     }
   }
 
-  /// Finds channels by name, because libraries sort them: R, G, B, A or Y, A after a common prefix. A single channel
-  /// may have any name.
-  void find_channels() {
-    const auto& names = spec_.channelnames;
-    if (names.size() == 1) {
-      order_ = {0};
-      return;
-    }
-    std::string_view prefix = names.empty() ? std::string_view() : names[0];
-    for (std::string_view name : names) {
-      while (!name.starts_with(prefix)) prefix.remove_suffix(1);
-    }
-    for (const std::string_view wanted : {"RGB", "RGBA", "YA"}) {
-      if (wanted.size() != names.size()) continue;
-      order_.clear();
-      for (const char letter : wanted) {
-        const auto found = std::find(names.begin(), names.end(), std::string(prefix) + letter);
-        if (found == names.end()) break;
-        order_.push_back(static_cast<std::size_t>(found - names.begin()));
-      }
-      if (order_.size() == names.size()) return;
-    }
-    std::string all;
-    for (const auto& name : names) all += (all.empty() ? "" : ", ") + name;
-    refuse(names.size() == 4 ? "four channels, but the fourth is not alpha" : "unsupported channels",
-           "channels named Y, YA, RGB or RGBA, or a single channel", all, "select or name channels with oiiotool --ch");
-  }
-
   /// Refuses declarations that would change samples, which are taken as stored.
   void check_declared() {
-    if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1) {
-      refuse("the image is stored rotated or mirrored: orientation " + std::to_string(orientation), "1", {},
-             "write it upright with oiiotool --reorient");
-    }
+    if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1)
+      throw turned_refusal(orientation);
     const std::string model = spec_.get_string_attribute(std::string(input_->format_name()) + ":ColorSpace");
     constexpr int kPalette = 3;  // WhiteIsZero, BlackIsZero, RGB and palette are read as grey and RGB
     const bool followed = model.empty() || model == "palette";
@@ -168,11 +127,7 @@ class Decoder {
   std::string encoding() const {
     if (spec_.find_attribute("ICCProfile") != nullptr)
       return profile_encoding(spec_.get_string_attribute("ICCProfile:profile_description", "unnamed"));
-    const auto* declared = spec_.find_attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8));
-    if (declared == nullptr) return {};
-    Primaries primaries{};
-    std::copy_n(static_cast<const float*>(declared->data()), primaries.size(), primaries.begin());
-    return with_primaries(kLinear, primaries);
+    return {};
   }
 
   /// Reorders to R, G, B, A; grey with alpha becomes RGBA.
@@ -188,10 +143,6 @@ class Decoder {
     return out;
   }
 
-  std::string size_text() const {
-    return std::to_string(spec_.width) + " x " + std::to_string(spec_.height) + " x " + std::to_string(spec_.nchannels);
-  }
-
   PixelKind kind() const {
     for (const auto& format : spec_.channelformats) {
       if (format != TypeDesc::HALF && format != TypeDesc::FLOAT) {
@@ -204,20 +155,6 @@ class Decoder {
     if (spec_.format == TypeDesc::UINT16) return PixelKind::Uint16;
     if (spec_.format == TypeDesc::UINT32) return PixelKind::RawWords;
     refuse("unsupported sample type", "half, float, uint8, uint16 or raw uint32", spec_.format.c_str());
-  }
-
-  int frac_bits(const Metadata& metadata) const {
-    const auto found = metadata.find("frac_bits");
-    if (found == metadata.end()) {
-      refuse("integer words of unknown scale", "metadata fastsplat:frac_bits", "none", "write it with this program");
-    }
-    const std::string& text = found->second;
-    int bits = -1;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), bits);
-    if (status != std::errc{} || end != text.data() + text.size() || bits < 0 || bits > 32) {
-      refuse("bad metadata fastsplat:frac_bits", "0 to 32", text);
-    }
-    return bits;
   }
 
   /// Decodes all samples as `type`, block by block; memory grows only with the decoded data.

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/images/openimageio/attributes.hpp"
+#include "base/images/metadata_text.hpp"
 #include "base/images/openimageio/operations.hpp"
 
 namespace fastsplat::images {
@@ -38,13 +38,11 @@ std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes) {
     if (!output) return OIIO::geterror();
     const auto [stored, given] = types_of(picture.kind);
     OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, stored);
-    set_metadata(spec, picture.format, picture.metadata);
+    spec.attribute("ImageDescription", metadata_lines(picture.metadata));
     spec.attribute("Software", picture.software);
     spec.attribute("DateTime", "");  // else OpenImageIO writes the current time, and equal pictures differ
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", picture.srgb ? "sRGB" : "Linear");
-    // PNG defines alpha as unassociated, so OpenImageIO would divide by it. TIFF's tag rightly says associated.
-    if (picture.format == "png") spec.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOVecOutput memory(bytes);
     output->set_ioproxy(&memory);
     if (output->open(picture.name, spec) && output->write_image(given, picture.samples) && output->close()) return {};

@@ -115,7 +115,7 @@ Words words_of(std::span<char*> args) {
   const auto ending = words.picture.extension();
   if (ending != ".png" && ending != ".exr" && ending != ".tif")
     refuse("unsupported picture format", words.picture.string());
-  images::require_library();
+  images::require_library(words.picture);
   const AtomicFile probe(words.picture);  // whether it could be written
   return words;
 }

@@ -14,7 +14,7 @@ void ResultWriter::write(const std::function<void()>& write) {
   }
 }
 
-ExitCode ResultWriter::tell(ExitCode run, const Output& output) const {
+ExitCode ResultWriter::report_failures(ExitCode run, const Output& output) const {
   for (const std::string& why : unwritten_) run == ExitCode::Pass ? print_error(why) : output.warn(why);
   return run == ExitCode::Pass ? first_ : run;
 }

@@ -21,7 +21,7 @@ class ResultWriter {
 
   /// Reports the failed writes: as warnings if `run`, the run's exit code, is not a pass; else as errors. Returns
   /// `run`, or after a pass the code of the first failed write.
-  ExitCode tell(ExitCode run, const Output& output) const;
+  ExitCode report_failures(ExitCode run, const Output& output) const;
 
  private:
   std::vector<std::string> unwritten_;

@@ -82,7 +82,7 @@ Wave write_wave(const WaveFlags& flags, const testbench::BeatSource& source, tes
   return wave;
 }
 
-ExitCode tell(const Wave& wave, ExitCode run, const Output& output) {
+ExitCode print_wave(const Wave& wave, ExitCode run, const Output& output) {
   if (const std::string text = to_text(wave); !text.empty()) output.line(text);
   if (wave.unwritten.empty()) return run;
   if (run != ExitCode::Pass) {

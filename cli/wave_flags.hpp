@@ -46,7 +46,7 @@ Wave write_wave(const WaveFlags& flags, const testbench::BeatSource& source, tes
 
 /// Prints the waveform's name and cycles to stdout. A missing waveform is an error after a run that passed, and its
 /// code is returned; else it is a warning, because the failure takes precedence.
-ExitCode tell(const Wave& wave, ExitCode run, const Output& output);
+ExitCode print_wave(const Wave& wave, ExitCode run, const Output& output);
 /// Empty if not written.
 std::string to_text(const Wave& wave);
 nlohmann::ordered_json to_json(const Wave& wave);

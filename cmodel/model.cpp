@@ -109,11 +109,11 @@ void Model::cull_block(const CullBlock& record) {
   sets_.announce(record.tag, record.splats, hidden);
 }
 
-bool Model::swallowed(std::uint32_t tag) {
+bool Model::dropped(std::uint32_t tag) {
   if (!cull_.on()) return false;
   const bool* hidden = sets_.next(tag);
   if (hidden == nullptr || !*hidden) return false;
-  ++culls_.swallowed;
+  ++culls_.dropped;
   return true;
 }
 
@@ -144,7 +144,7 @@ void Model::splat(const SplatRecord& record, Observer& observer) {
 
 template <class Unit, class Observer>
 void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
-  if (swallowed(record.tag)) return;
+  if (dropped(record.tag)) return;
   const std::uint32_t rho = unit.rho(record.set);
   const std::uint32_t extent = unit.extent(record.set);
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
@@ -177,7 +177,7 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
 
 template <class Observer>
 void Model::ellipse(const EllipseRecord& record, Observer& observer) {
-  if (swallowed(record.tag)) return;
+  if (dropped(record.tag)) return;
   const EllipseAxis x = ellipse_axis(config_, record.x, record.windows.left);
   const EllipseAxis y = ellipse_axis(config_, record.y, record.windows.top);
   ++counters_.splats;

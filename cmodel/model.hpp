@@ -54,7 +54,7 @@ class Model final : public Device {
   void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
   void cull_block(const CullBlock& record);
   /// Whether the next splat belongs to a hidden cull group; counts it as dropped.
-  bool swallowed(std::uint32_t tag);
+  bool dropped(std::uint32_t tag);
   /// Tests a splat: columns x rows windows from pixel (x,y) on. If it is not hidden, tests each window, too.
   bool hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
   /// The result of one window, after hidden() returned false.

@@ -165,7 +165,7 @@ std::vector<std::size_t> groups_of(const std::vector<Picture>& pictures) {
 }
 
 /// Appends file names to titles that are not unique within their group.
-void tell_apart(Json& entries) {
+void disambiguate(Json& entries) {
   std::map<std::string, int> times;
   const auto key = [](const Json& json) { return json["group"].dump() + json["title"].get<std::string>(); };
   for (const Json& json : entries) ++times[key(json)];
@@ -275,7 +275,7 @@ Pages fit(const Album& album, Focus focus, std::size_t bytes) {
     }
     pages.entries.push_back(std::move(json));
   }
-  tell_apart(pages.entries);
+  disambiguate(pages.entries);
   return pages;
 }
 

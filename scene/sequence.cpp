@@ -105,8 +105,8 @@ Sequence load_sequence(const std::filesystem::path& scene_file) {
   if (!table)
     root.refuse("", "the table [sequence] is missing", {}, {},
                 "add [sequence] with frames = N and a setting that changes");
-  std::vector<Given> judged_with_the_scene;
-  return read_sequence(*table, judged_with_the_scene);
+  std::vector<Given> checked_with_the_scene;
+  return read_sequence(*table, checked_with_the_scene);
 }
 
 SceneDescription at_frame(const Sequence& sequence, const SceneDescription& still, int frame) {

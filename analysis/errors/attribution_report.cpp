@@ -22,7 +22,7 @@ std::vector<const StepError*> ranked(const Attribution& a) {
   return steps;
 }
 
-std::string answer(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
+std::string answer(const Attribution& a, const std::optional<TriedSuggestion>& tried, int bits) {
   if (!(a.total.rms > 0.0)) return "no error: no step changes the picture\n";
   const auto steps = ranked(a);
   std::string text = fmt::format("{}: {:.0f} % of the error", steps[0]->set.name, 100.0 * steps[0]->share);
@@ -48,12 +48,12 @@ std::string story(const PixelStory& s, int bits) {
   constexpr const char* kChannels[] = {"R", "G", "B", "A"};
   std::string text = fmt::format("{:<6} pixel ({}, {}) {}: {:+.3f} LSB{}, of it", s.which, s.x, s.y,
                                  kChannels[s.channel], s.error * lsb_per_unit(bits), bits);
-  double told = 0.0;
+  double listed = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, s.parts.size()); ++i) {
     text += fmt::format("{} {} {:+.3f}", i == 0 ? "" : ",", s.parts[i].first, s.parts[i].second * lsb_per_unit(bits));
-    told += s.parts[i].second;
+    listed += s.parts[i].second;
   }
-  return text + fmt::format(", all others {:+.3f}\n", (s.error - told) * lsb_per_unit(bits));
+  return text + fmt::format(", all others {:+.3f}\n", (s.error - listed) * lsb_per_unit(bits));
 }
 
 Json amount_json(const Amount& amount) {
@@ -64,13 +64,13 @@ Json amount_json(const Amount& amount) {
 
 }  // namespace
 
-std::optional<TriedRemedy> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
-                                          const Attribution& attribution, int threads) {
+std::optional<TriedSuggestion> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+                                              const Attribution& attribution, int threads) {
   for (const StepError* step : ranked(attribution)) {
     if (step->share <= 0.0) break;
     std::optional<Suggestion> found = suggestion(step->set.steps.back(), config);
     if (!found) continue;
-    TriedRemedy out{step->set.name, std::move(*found), {}, {}};
+    TriedSuggestion out{step->set.name, std::move(*found), {}, {}};
     if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.suggestion.config)};
     const stages::Chain chain(scene, out.suggestion.config);
     out.error = amount_of(difference(chain(stages::Mixture::all_device(), threads), attribution.real));
@@ -79,7 +79,7 @@ std::optional<TriedRemedy> try_suggestion(const scene::Scene& scene, const cmode
   return std::nullopt;
 }
 
-std::string to_text(const Attribution& a, const std::optional<TriedRemedy>& tried, int bits) {
+std::string to_text(const Attribution& a, const std::optional<TriedSuggestion>& tried, int bits) {
   const double unit = lsb_per_unit(bits);
   std::string text = answer(a, tried, bits);
   text +=
@@ -113,7 +113,7 @@ std::string to_text(const Attribution& a, const std::optional<TriedRemedy>& trie
   return text;
 }
 
-Json to_json(const Attribution& a, const std::optional<TriedRemedy>& tried) {
+Json to_json(const Attribution& a, const std::optional<TriedSuggestion>& tried) {
   Json json{{"schema", "fastsplat.errors/1"},
             {"frames", a.chains},
             {"total", amount_json(a.total)},

@@ -15,7 +15,7 @@
 namespace fastsplat::analysis {
 
 /// A suggestion for the step with the largest share, tried on the scene.
-struct TriedRemedy {
+struct TriedSuggestion {
   std::string step;  ///< name of the set
   Suggestion suggestion;
   Amount error;                                ///< the remaining error
@@ -23,12 +23,12 @@ struct TriedRemedy {
 };
 
 /// Tries the suggestion for the step with the largest share that has one.
-std::optional<TriedRemedy> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
-                                          const Attribution& attribution, int threads);
+std::optional<TriedSuggestion> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+                                              const Attribution& attribution, int threads);
 
 /// The answer first, then the table. `bits`: amounts are in LSB of this width.
-std::string to_text(const Attribution& attribution, const std::optional<TriedRemedy>& tried, int bits);
-nlohmann::ordered_json to_json(const Attribution& attribution, const std::optional<TriedRemedy>& tried);
+std::string to_text(const Attribution& attribution, const std::optional<TriedSuggestion>& tried, int bits);
+nlohmann::ordered_json to_json(const Attribution& attribution, const std::optional<TriedSuggestion>& tried);
 
 /// The step that rules each pixel, with a legend.
 Image blame_map(const Attribution& attribution);

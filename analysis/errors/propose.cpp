@@ -76,12 +76,12 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
   out.from = from;
   out.scenes = std::move(names);
   out.error_from = simulate.worst_drawn(from, target);
-  const Judge judge = [&](const cmodel::Config& config) {
+  const Evaluate evaluate = [&](const cmodel::Config& config) {
     const auto entry = simulate.worst(config, target);
     return entry ? Verdict{target.met(*entry), target.excess(*entry)} : Verdict{};
   };
   Search search(
-      from, judge, [](const cmodel::Config& config) { return cost(config).total(); }, progress,
+      from, evaluate, [](const cmodel::Config& config) { return cost(config).total(); }, progress,
       [&](const cmodel::Config& config) { return simulate.meets(config, target); });
   out.search = search.run();
   out.error = simulate.worst(out.search.best, target);

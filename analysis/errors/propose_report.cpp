@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string told(const Proposal& proposal, const Journal::Entry& entry) {
-  return entry ? proposal.target.told(*entry) : "cannot be drawn";
+std::string reached(const Proposal& proposal, const Journal::Entry& entry) {
+  return entry ? proposal.target.reached(*entry) : "cannot be drawn";
 }
 
 std::string costs(const Cost& before, const Cost& after) {
@@ -42,17 +42,17 @@ std::string to_text(const Proposal& p) {
   const SearchOutcome& s = p.search;
   std::string text;
   if (!s.met) {
-    text = fmt::format("{} is not met: the best result is {} ({} has {})", p.target.text, told(p, p.error), p.from.name,
-                       told(p, p.error_from));
+    text = fmt::format("{} is not met: the best result is {} ({} has {})", p.target.text, reached(p, p.error),
+                       p.from.name, reached(p, p.error_from));
     if (s.geometry) {
-      text += fmt::format("; {} would improve it to {}", changes(s.best, *s.geometry), told(p, p.error_geometry));
+      text += fmt::format("; {} would improve it to {}", changes(s.best, *s.geometry), reached(p, p.error_geometry));
     } else {
       text +=
           "; finer words do not help: check saturation (`fastsplat errors ranges`) and the steps (`fastsplat errors`)";
     }
     return text + "\n";
   }
-  text = fmt::format("{}: {} -> {}, cost {:+.1f} %\n", p.target.text, told(p, p.error_from), told(p, p.error),
+  text = fmt::format("{}: {} -> {}, cost {:+.1f} %\n", p.target.text, reached(p, p.error_from), reached(p, p.error),
                      100.0 * (p.cost.total() / p.cost_from.total() - 1.0));
   const std::string changed = changes(p.from, s.best);
   text += changed.empty() ? "nothing to change\n" : changed + "\n";
@@ -66,7 +66,7 @@ std::string to_text(const Proposal& p) {
                             : fmt::format("{}: cannot be drawn", key.lower));
   }
   text += fmt::format("{:<12}{:>12}{:>12}\n", "", "from", "proposed") + costs(p.cost_from, p.cost);
-  return text + fmt::format("{} configurations evaluated: {} frames simulated, {} from the journal\n", s.judged,
+  return text + fmt::format("{} configurations evaluated: {} frames simulated, {} from the journal\n", s.evaluated,
                             p.simulated, p.recalled);
 }
 
@@ -94,7 +94,7 @@ Json to_json(const Proposal& p) {
   }
   if (s.geometry)
     json["would_help"] = {{"changes", changes(s.best, *s.geometry)}, {"error", entry_json(p.error_geometry)}};
-  json["judged"] = s.judged;
+  json["judged"] = s.evaluated;
   json["simulated"] = p.simulated;
   json["recalled"] = p.recalled;
   return json;

@@ -23,24 +23,24 @@ std::string text(const cmodel::Config& config, const Knob& knob) {
 
 }  // namespace
 
-Search::Search(const cmodel::Config& from, Judge judge, Price price, Progress progress, Check check)
+Search::Search(const cmodel::Config& from, Evaluate evaluate, Price price, Progress progress, Check check)
     : from_(from),
-      judge_(std::move(judge)),
+      evaluate_(std::move(evaluate)),
       price_(std::move(price)),
       progress_(std::move(progress)),
       check_(std::move(check)) {}
 
 void Search::report_progress() const {
-  const std::size_t judged = known_.size() + failed_.size();
-  if (progress_) progress_(judged, std::max(kUsual, judged + 1));
+  const std::size_t evaluated = known_.size() + failed_.size();
+  if (progress_) progress_(evaluated, std::max(kUsual, evaluated + 1));
 }
 
-std::optional<Verdict> Search::judge(const Steps& steps) {
+std::optional<Verdict> Search::evaluate(const Steps& steps) {
   const auto config = turned(from_, steps);
   if (!config) return std::nullopt;
   const auto [found, fresh] = known_.try_emplace(cmodel::config_hash(*config));
   if (fresh) {
-    found->second = judge_(*config);
+    found->second = evaluate_(*config);
     failed_.erase(found->first);
     report_progress();
   }
@@ -60,7 +60,7 @@ bool Search::meets(const Steps& steps) {
       return false;
     }
   }
-  return judge(steps)->meets;
+  return evaluate(steps)->meets;
 }
 
 double Search::price(const Steps& steps) const {
@@ -72,7 +72,7 @@ double Search::price(const Steps& steps) const {
 std::optional<Steps> Search::start() {
   Steps steps(knobs().size(), 0);
   nearest_ = steps;
-  if (judge(steps)->meets) return steps;  // counts, too: it may be the nearest of all
+  if (evaluate(steps)->meets) return steps;  // counts, too: it may be the nearest of all
   for (const int freeze : {0, 2, 20}) {
     if (freeze > 0 && from_.freeze_below == 0) break;
     steps.assign(knobs().size(), 0);
@@ -90,7 +90,7 @@ std::optional<Steps> Search::start() {
         }
       }
       if (!moved) break;
-      const auto verdict = judge(steps);
+      const auto verdict = evaluate(steps);
       if (verdict && verdict->meets) return steps;
       const double excess = verdict ? verdict->excess : kInfinite;
       idle = excess < 0.99 * before ? 0 : idle + 1;
@@ -104,7 +104,7 @@ std::optional<Steps> Search::start() {
 void Search::lowest_alone(const Steps& start) {
   begin_ = start;
   lowest_ = start;
-  noises_ = NoiseModel(start, judge(start)->excess);
+  noises_ = NoiseModel(start, evaluate(start)->excess);
   for (std::size_t k = 0; k < knobs().size(); ++k) {
     Steps steps = start;
     const auto possible = [&](int step) {
@@ -117,7 +117,7 @@ void Search::lowest_alone(const Steps& start) {
       // Near the start first, in growing strides: few keys can go far down.
       const int middle = std::max(good - stride, bad + 1);
       steps[k] = middle;
-      const auto verdict = judge(steps);
+      const auto verdict = evaluate(steps);
       noises_.learn(k, middle, verdict->excess);
       if (verdict->meets) {
         good = middle;
@@ -161,7 +161,7 @@ Steps Search::combine(const Steps& start) {
   double price_of_best = price(start), passes = 0.0, fails = 0.0, budget = 1.0;
   for (int attempt = 0; attempt < 8; ++attempt) {
     const Steps steps = cheapest_by_model(budget);
-    const auto verdict = judge(steps);
+    const auto verdict = evaluate(steps);
     if (verdict && verdict->meets) {
       passes = budget;
       if (price(steps) < price_of_best) best = steps, price_of_best = price(steps);
@@ -254,11 +254,11 @@ std::optional<Steps> Search::exchange(const Steps& steps) {
   return std::nullopt;
 }
 
-SearchOutcome Search::told(const Steps& steps) {
+SearchOutcome Search::outcome(const Steps& steps) {
   SearchOutcome out;
   out.met = true;
   out.best = *turned(from_, steps);
-  out.verdict = *judge(steps);
+  out.verdict = *evaluate(steps);
   out.start = *turned(from_, begin_);
   for (std::size_t k = 0; k < knobs().size(); ++k) {
     const Knob& knob = knobs()[k];
@@ -269,11 +269,11 @@ SearchOutcome Search::told(const Steps& steps) {
     if (const auto config = turned(from_, lower)) {
       key.lower = text(*config, knob);
       key.dearer = price(lower) > price(steps);
-      if (!key.dearer) key.lowered = *judge(lower);
+      if (!key.dearer) key.lowered = *evaluate(lower);
     }
     out.keys.push_back(std::move(key));
   }
-  out.judged = static_cast<int>(known_.size() + failed_.size());
+  out.evaluated = static_cast<int>(known_.size() + failed_.size());
   return out;
 }
 
@@ -288,16 +288,16 @@ SearchOutcome Search::run() {
     wider.rlut_columns = std::min(1024, 2 * wider.rlut_columns);
     wider.position_int_bits = std::min(16, wider.position_int_bits + 1);
     if (!cmodel::first_violation(wider)) {
-      out.geometry_verdict = judge_(wider);
+      out.geometry_verdict = evaluate_(wider);
       if (out.geometry_verdict.excess < 0.98 * nearest_excess_) out.geometry = wider;
     }
-    out.judged = static_cast<int>(known_.size() + failed_.size());
+    out.evaluated = static_cast<int>(known_.size() + failed_.size());
     return out;
   }
   lowest_alone(*start);
   Steps steps = descend(combine(*start));
   while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
-  return told(steps);
+  return outcome(steps);
 }
 
 }  // namespace fastsplat::analysis

@@ -23,7 +23,7 @@ struct Verdict {
   double excess = std::numeric_limits<double>::infinity();
 };
 /// Called once per configuration.
-using Judge = std::function<Verdict(const cmodel::Config&)>;
+using Evaluate = std::function<Verdict(const cmodel::Config&)>;
 /// Verdict::meets alone, which may take less work: one failed scene decides.
 using Check = std::function<bool(const cmodel::Config&)>;
 /// To be minimised; of two equally cheap configurations the one with fewer bits is taken.
@@ -46,19 +46,19 @@ struct SearchOutcome {
   std::vector<KeyOutcome> keys;            ///< in the order of knobs(); empty if not met
   std::optional<cmodel::Config> geometry;  ///< if not met: a change of the kept keys that would bring it nearer
   Verdict geometry_verdict;
-  int judged = 0;
+  int evaluated = 0;
 };
 
 /// Deterministic: the same verdicts give the same outcome.
 class Search {
  public:
-  /// Without `check`, the judge is called.
-  Search(const cmodel::Config& from, Judge judge, Price price, Progress progress = {}, Check check = {});
+  /// Without `check`, `evaluate` is called.
+  Search(const cmodel::Config& from, Evaluate evaluate, Price price, Progress progress = {}, Check check = {});
   SearchOutcome run();
 
  private:
   /// nullopt for an invalid configuration.
-  std::optional<Verdict> judge(const Steps& steps);
+  std::optional<Verdict> evaluate(const Steps& steps);
   bool meets(const Steps& steps);
   void report_progress() const;
   double price(const Steps& steps) const;
@@ -70,15 +70,15 @@ class Search {
   Steps descend(Steps steps);
   Steps finer_by_one(Steps steps, std::size_t but) const;
   std::optional<Steps> exchange(const Steps& steps);
-  SearchOutcome told(const Steps& steps);
+  SearchOutcome outcome(const Steps& steps);
 
   cmodel::Config from_;
-  Judge judge_;
+  Evaluate evaluate_;
   Price price_;
   Progress progress_;
   Check check_;
   std::map<std::uint64_t, Verdict> known_;  ///< by configuration hash
-  std::set<std::uint64_t> failed_;          ///< hashes that failed the check and were not judged
+  std::set<std::uint64_t> failed_;          ///< hashes that failed the check and were not evaluated
   Steps begin_, lowest_, nearest_;          ///< the start; per knob the least that meets alone; least excess so far
   double nearest_excess_ = std::numeric_limits<double>::infinity();
   NoiseModel noises_;

@@ -64,7 +64,7 @@ double Target::excess(const Fidelity& of) const {
   return of.rms_lsb / limit;
 }
 
-std::string Target::told(const Fidelity& of) const {
+std::string Target::reached(const Fidelity& of) const {
   switch (figure) {
     case Figure::Psnr:
       return fmt::format("PSNR {:.2f} dB", of.psnr_db());

@@ -27,7 +27,7 @@ struct Target {
   /// Error / allowed error: at most 1 if the target is met, up to the last bit of a double.
   double excess(const Fidelity& of) const;
   /// "PSNR 50.32 dB", "max 0.83 LSB8", "RMS 0.0921 LSB8"
-  std::string told(const Fidelity& of) const;
+  std::string reached(const Fidelity& of) const;
 };
 
 /// Throws UserError (Usage) that names --target.

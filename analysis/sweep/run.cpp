@@ -49,7 +49,7 @@ class Runner {
   }
 
   RunSummary run() {
-    tell_progress();
+    report_progress();
     fill();
     while (!going_.empty()) {
       const auto ended = children_.wait();
@@ -96,7 +96,7 @@ class Runner {
                                        : summary_.errors);
   }
 
-  void tell_progress() const {
+  void report_progress() const {
     const std::size_t done = summary_.passed + summary_.failed + summary_.errors + summary_.accidents;
     if (options_.progress) options_.progress(done, summary_.cases);
   }
@@ -218,7 +218,7 @@ class Runner {
       fs::remove_all(going.folder, ignored);
       ++summary_.accidents;
       if (options_.accident) options_.accident(*going.one, going.result.message);
-      return tell_progress();
+      return report_progress();
     }
     keep_evidence(going);
     const fs::path written = going.folder / "result";
@@ -229,7 +229,7 @@ class Runner {
     fs::remove_all(going.folder, ignored);
     count(going.result);
     if (options_.finished) options_.finished(*going.one, going.result);
-    tell_progress();
+    report_progress();
   }
 
   /// Keeps the small stream and waveform of a failed verification: failures/ID.fss and .fst.

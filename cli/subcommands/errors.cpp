@@ -31,7 +31,7 @@ struct ErrorsResult {
   std::string scene;  ///< its summary
   cmodel::Config config;
   analysis::Attribution attribution;
-  std::optional<analysis::TriedRemedy> tried;
+  std::optional<analysis::TriedSuggestion> tried;
   std::string blame;  ///< the map's file; empty for none
 };
 

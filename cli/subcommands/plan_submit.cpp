@@ -224,7 +224,7 @@ Json to_json(const PlanSubmitResult& result, const PlanSubmitArguments& argument
 }
 
 /// Lists the tasks whose results are missing, and their logs.
-ExitCode tell_lost(const Output& output, const plan::Plan& plan, const plan::Submission& submission) {
+ExitCode print_lost(const Output& output, const plan::Plan& plan, const plan::Submission& submission) {
   const auto lost = plan::lost_tasks(plan, submission, plan::cases_to_do(plan, submission.results, program_hash()));
   std::string text;
   Json tasks = Json::array();
@@ -258,7 +258,7 @@ ExitCode run(const PlanSubmitArguments& arguments) {
                           .cases = plan.cases.size(),
                           .plan_name = plan.name,
                           .plan_hash = plan.hash};
-  if (arguments.lost) return tell_lost(output, plan, result.submission);
+  if (arguments.lost) return print_lost(output, plan, result.submission);
   require_content(plan, arguments.plan.plan);
   auto& s = result.submission;
   const auto to_do = plan::cases_to_do(plan, s.results, program_hash());

@@ -145,7 +145,7 @@ ExitCode run_still(const RenderArguments& arguments, const Renderer& renderer,
   ExitCode code = ExitCode::Pass;
   if (frame.checked) {
     result.wave = write_wave(arguments.wave, scene, *renderer.config, *frame.checked);
-    code = tell(result.wave, frame.checked->exit_code(), output);
+    code = print_wave(result.wave, frame.checked->exit_code(), output);
   }
   result.seconds = output.seconds();
   output.json(to_json(result));

@@ -113,9 +113,10 @@ ExitCode run(const ReportArguments& arguments) {
   write_output_formats(arguments, request.results);
   if (!arguments.out.empty()) write_text_file(arguments.out, made.html);
 
-  const bool judged = made.verdict.status != report::Status::Measured;
+  const bool has_verdict = made.verdict.status != report::Status::Measured;
   if (!made.verdict.sentence.empty())
-    output.line((judged ? to_string(made.verdict.status) + std::string(": ") : "") + printable(made.verdict.sentence));
+    output.line((has_verdict ? to_string(made.verdict.status) + std::string(": ") : "") +
+                printable(made.verdict.sentence));
   for (const auto& face : {arguments.junit, arguments.csv, arguments.markdown}) {
     if (!face.empty()) output.line(fmt::format("{}: {}", face, counted(request.results.size(), "result")));
   }

@@ -36,7 +36,7 @@ ExitCode run(const StreamDumpArguments& arguments) {
   Json records = Json::array();
   std::string buffer;
   std::uint64_t count = 0;
-  const auto tell = [&](const std::string& line) {
+  const auto print_line = [&](const std::string& line) {
     if (count == limit) return false;
     ++count;
     if (!arguments.common.json.empty()) records.push_back(line);
@@ -51,7 +51,7 @@ ExitCode run(const StreamDumpArguments& arguments) {
   // Dumps the valid part of the stream before reporting its error.
   std::optional<UserError> wrong;
   try {
-    driver::dump_stream(arguments.stream, tell);
+    driver::dump_stream(arguments.stream, print_line);
   } catch (const UserError& error) {
     wrong = error;
   }

@@ -185,7 +185,7 @@ Checked check(const VerifyArguments& arguments, Source source, const testbench::
                                   : verify_random(arguments, options, bar.callback());
 }
 
-ExitCode verify_and_tell(const VerifyArguments& arguments) {
+ExitCode verify_and_report(const VerifyArguments& arguments) {
   const Output output(arguments.common);
   const Source source = source_from(arguments);
   const ConfigFlags config_flags = config_of(arguments);
@@ -251,13 +251,13 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
   result.saved = save_streams(arguments, checked, config_flags, options, saved, results);
   if (!result.saved.empty()) output.line(saved_text(result.saved, checked.by_stream.size()));
   result.wave = write_wave(arguments.wave, checked.source, checked.options, checked.result.last_cycle);
-  ExitCode code = tell(result.wave, testbench::exit_code(verdict), output);
+  ExitCode code = print_wave(result.wave, testbench::exit_code(verdict), output);
   result.unwritten = results.unwritten();
   result.seconds = output.seconds();
   const auto json = to_json(result);
   results.write([&] { write_junit(arguments.junit, json); });
   results.write([&] { output.json(json); });
-  code = results.tell(code, output);
+  code = results.report_failures(code, output);
   arguments.common.json == "-" ? output.note(seed) : output.line(seed);
   return code;
 }
@@ -265,7 +265,7 @@ ExitCode verify_and_tell(const VerifyArguments& arguments) {
 ExitCode run(const VerifyArguments& arguments) {
   if (arguments.fault == "list") return list_faults(arguments);
   try {
-    return verify_and_tell(arguments);
+    return verify_and_report(arguments);
   } catch (const std::bad_alloc&) {
     if (!arguments.stream.empty()) {
       throw_machine({.where = arguments.stream,

@@ -13,7 +13,7 @@ namespace fastsplat::cmodel {
 struct CullCounts {
   std::uint64_t set_tests = 0, hidden_sets = 0;
   std::uint64_t splat_tests = 0, hidden_splats = 0;  ///< without splats that were dropped
-  std::uint64_t swallowed = 0;                       ///< splats of hidden cull groups that were sent, and dropped
+  std::uint64_t dropped = 0;                         ///< splats of hidden cull groups that were sent, and dropped
   std::uint64_t hidden_windows = 0;                  ///< of splats that are not hidden
 
   CullCounts& operator+=(const CullCounts& other) {
@@ -21,7 +21,7 @@ struct CullCounts {
     hidden_sets += other.hidden_sets;
     splat_tests += other.splat_tests;
     hidden_splats += other.hidden_splats;
-    swallowed += other.swallowed;
+    dropped += other.dropped;
     hidden_windows += other.hidden_windows;
     return *this;
   }

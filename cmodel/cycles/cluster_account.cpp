@@ -12,7 +12,7 @@ constexpr std::uint64_t up(std::uint64_t whole, std::uint64_t by) { return (whol
 
 FrameShares frame_shares(const Config& config, const CycleCluster& cluster) {
   // The first beat is taken in the cycle after the wipe at the earliest, is checked, and lies in decode one later.
-  const std::uint64_t start = wipe_cycles(config) + stages::kWeigh + stages::kJudge + 1;
+  const std::uint64_t start = wipe_cycles(config) + stages::kWeigh + stages::kResult + 1;
   const std::uint64_t frame = cluster.frame_cycles();
   FrameShares shares;
   for (const DeviceCycles& device : cluster.devices()) {

@@ -23,10 +23,10 @@ class CullPipe {
     std::uint64_t left = 0;     ///< it moves into decode's register
     std::uint64_t waited = 0;   ///< cycles in t0 only because of a table
   };
-  /// Check passes it in cycle `judged`; decode takes a beat from cycle `ready` on.
-  Passage pass(std::uint64_t judged, std::uint64_t ready, bool begin_sheet) {
+  /// Check passes it in cycle `checked`; decode takes a beat from cycle `ready` on.
+  Passage pass(std::uint64_t checked, std::uint64_t ready, bool begin_sheet) {
     Passage out;
-    out.entered = std::max(judged, free_[0]);
+    out.entered = std::max(checked, free_[0]);
     std::uint64_t moved = std::max(out.entered + 1, free_[1]);
     if (begin_sheet) {
       const std::uint64_t whole = std::max(moved, whole_[sheet_ % 2]);

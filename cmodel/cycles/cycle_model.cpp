@@ -62,31 +62,31 @@ void CycleModel::empty(std::uint64_t from, std::uint64_t to) {
   stalls_.busy += last - first;
 }
 
-std::uint64_t CycleModel::judged(std::uint64_t taken) const {
-  return std::max(std::max(arrives(taken), check_free_) + stages::kWeigh, judge_free_) + stages::kJudge;
+std::uint64_t CycleModel::checked_at(std::uint64_t taken) const {
+  return std::max(std::max(arrives(taken), check_free_) + stages::kWeigh, result_free_) + stages::kResult;
 }
 
 std::uint64_t CycleModel::enter(Opcode opcode, bool payload) {
   const std::uint64_t offered = options_.input == nullptr ? next_offer_ : options_.input->next(next_offer_);
   const std::uint64_t free = options_.sliced ? beats_in_.free() : check_free_;
   const std::uint64_t taken = std::max(offered, free);
-  const std::uint64_t verdict = judged(taken);
+  const std::uint64_t verdict = checked_at(taken);
   if (options_.sliced) beats_in_.pass(taken, std::max(arrives(taken), check_free_));
   beat_.wanted = std::max(next_offer_, free);
   beat_.offered = offered;
   beat_.taken = taken;
   next_offer_ = taken + 1;
-  check_free_ = verdict - stages::kJudge;
+  check_free_ = verdict - stages::kResult;
   ++sent_;
   std::uint64_t checked = 0, map = 0;
   if (config_.culls()) {
     const CullPipe::Passage passage = cull_.pass(verdict, ready_, opcode == Opcode::BeginSheet && !payload);
-    judge_free_ = passage.entered;
+    result_free_ = passage.entered;
     checked = passage.left;
     map = passage.waited;
     last_verdict_ = opcode == Opcode::CullBlock && !payload ? passage.verdict : last_verdict_;
   } else {
-    judge_free_ = checked = std::max(verdict, ready_);
+    result_free_ = checked = std::max(verdict, ready_);
   }
   beat_.entered = checked + 1;
   const std::uint64_t waited = checked + 1 > register_free_ ? std::min(map, checked + 1 - register_free_) : 0;
@@ -113,7 +113,7 @@ void CycleModel::take(const Beat& beat) {
   const bool payload = payload_words_ > 0;
   const auto opcode = static_cast<Opcode>(get(beat, layout::kOpcode));
   const Record* record = decode_.feed(beat);
-  const bool gone = !payload && record != nullptr && swallowed(*record);
+  const bool gone = !payload && record != nullptr && dropped(*record);
   if (gone && options_.fetch && !trusts_) return;
   beat_.payload = payload;
   beat_.opcode = payload ? Opcode::LoadTable : opcode;
@@ -172,7 +172,7 @@ void CycleModel::cull_block(const CullBlock& record) {
   const bool tested = tile_open_ && culls_in(tile_.mode);
   const bool hidden = tested && answer();
   if (config_.culls() && options_.spans != nullptr)
-    options_.spans->on_verdict({.tag = record.tag, .hidden = hidden, .told = last_verdict_});
+    options_.spans->on_verdict({.tag = record.tag, .hidden = hidden, .reported = last_verdict_});
   if (!tested) return;
   if (answers_ != nullptr) ++stalls_.cull_tests;
   if (hidden) ++stalls_.hidden_sets;
@@ -180,7 +180,7 @@ void CycleModel::cull_block(const CullBlock& record) {
   cull_sets_.announce(record.tag, record.splats, {hidden, last_verdict_});
 }
 
-bool CycleModel::swallowed(const Record& record) {
+bool CycleModel::dropped(const Record& record) {
   const Verdict* set = nullptr;
   if (const auto* circle = std::get_if<SplatRecord>(&record)) set = cull_sets_.next(circle->tag);
   if (const auto* ellipse = std::get_if<EllipseRecord>(&record)) set = cull_sets_.next(ellipse->tag);

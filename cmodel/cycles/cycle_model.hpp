@@ -61,7 +61,7 @@ struct BeatCycles {
 struct VerdictCycles {
   std::uint32_t tag = 0;
   bool hidden = false;
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   bool operator==(const VerdictCycles&) const = default;
 };
 
@@ -108,7 +108,7 @@ class CycleModel final : public Device {
   const Counters& counters() const override { return counters_; }
   /// The cycle in which check decides on a beat that is taken in cycle `taken`, after those consumed. One that breaks a
   /// rule is not consumed.
-  std::uint64_t judged(std::uint64_t taken) const;
+  std::uint64_t checked_at(std::uint64_t taken) const;
 
   // After finish():
   /// Sums to stalls().busy.
@@ -138,7 +138,7 @@ class CycleModel final : public Device {
   /// Accounts for the cycle of a splat that is hidden or dropped.
   void hide(std::uint64_t at);
   /// Whether the splat's cull group is hidden. With a fetching source, it is never sent, or waits for the verdict.
-  bool swallowed(const Record& record);
+  bool dropped(const Record& record);
   /// A fetching source requests the next beat after the verdict of cycle `verdict`.
   void fetch_behind(std::uint64_t verdict);
   /// Accounts for a splat some of whose windows are hidden.
@@ -196,7 +196,7 @@ class CycleModel final : public Device {
   std::uint64_t next_offer_ = 0;     ///< earliest cycle in which the next beat can be offered
   RegisterSlice beats_in_, pixels_out_;
   std::uint64_t check_free_ = 0;     ///< earliest cycle in which check's first stage takes the next beat
-  std::uint64_t judge_free_ = 0;     ///< earliest cycle in which its second stage takes it from there
+  std::uint64_t result_free_ = 0;    ///< earliest cycle in which its second stage takes it from there
   std::uint64_t ready_ = 0;          ///< earliest cycle in which decode takes the next beat from it
   std::uint64_t register_free_ = 0;  ///< first cycle after the last beat left
   std::uint64_t end_ = 0;

@@ -11,7 +11,7 @@ namespace fastsplat::cmodel::stages {
 
 // The two stages of check: from the cycle in which each takes a beat to the earliest in which it passes it on.
 inline constexpr std::uint64_t kWeigh = 1;
-inline constexpr std::uint64_t kJudge = 1;
+inline constexpr std::uint64_t kResult = 1;
 
 // Devices with ellipses: all windows are delayed until an ellipse's words are ready (M-ellipse-1).
 inline constexpr std::uint64_t kEllipseDelay = 10;

@@ -318,7 +318,8 @@ void StreamDecode::check(const SplatRecord& record) {
   check_splat(record.x, record.y, record.colour, record.tag);
   if (sets_.open() == 0) return;
   const std::uint32_t rho = rho_[record.set], windows = window_geometry(config_, rho).windows;
-  check_promise(record.tag, snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows, windows);
+  check_announced(record.tag, snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows,
+                  windows);
 }
 
 void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour,
@@ -341,18 +342,18 @@ void StreamDecode::check(const EllipseRecord& record) {
   if (const auto wrong = ellipse_violation(config_, record)) refuse(wrong->what.c_str(), wrong->expected, wrong->got);
   if (sets_.open() == 0) return;
   const EllipseWindows& windows = record.windows;
-  check_promise(record.tag, ellipse_axis(config_, record.x, windows.left).origin,
-                ellipse_axis(config_, record.y, windows.top).origin, windows.columns, windows.rows);
+  check_announced(record.tag, ellipse_axis(config_, record.x, windows.left).origin,
+                  ellipse_axis(config_, record.y, windows.top).origin, windows.columns, windows.rows);
 }
 
 void StreamDecode::check(const CullBlock& record) {
   rule_ = StreamRule::Cull;
   expect_least(record.width, 1, "empty cull block");
   expect_least(record.height, 1, "empty cull block");
-  if (config_.culls()) check_promise(record);
+  if (config_.culls()) check_announced(record);
 }
 
-void StreamDecode::check_promise(const CullBlock& record) {
+void StreamDecode::check_announced(const CullBlock& record) {
   rule_ = StreamRule::Promise;
   expect(record.tag == static_cast<std::uint32_t>(next_tag_ + sets_.waiting()),
          "the tag of cull_block differs from that of its first splat",
@@ -360,27 +361,27 @@ void StreamDecode::check_promise(const CullBlock& record) {
   // With jumps_ skipped groups show only at the next splat, so their number is not limited (S-cull-11).
   expect_most(jumps_ ? 0 : static_cast<std::int64_t>(sets_.open()) + (record.splats > 0 ? 1 : 0), cull_sets(config_),
               "too many open cull_blocks for the device");
-  constexpr std::int64_t kMostPromised = std::int64_t{1} << 31;  // tags are compared modulo 2^32
-  expect_most((jumps_ ? 0 : std::int64_t{sets_.waiting()}) + record.splats, kMostPromised,
+  constexpr std::int64_t kMostAnnounced = std::int64_t{1} << 31;  // tags are compared modulo 2^32
+  expect_most((jumps_ ? 0 : std::int64_t{sets_.waiting()}) + record.splats, kMostAnnounced,
               "too many open splats of cull_blocks for the tags");
   sets_.announce(record.tag, record.splats, record);
 }
 
-void StreamDecode::check_promise(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns,
-                                 std::uint32_t rows) {
+void StreamDecode::check_announced(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns,
+                                   std::uint32_t rows) {
   rule_ = StreamRule::Promise;
   const CullBlock* one = sets_.next(tag);
   if (one == nullptr) return;
   const CullBlock& set = *one;
   const std::int64_t lanes = config_.lanes;
   const PixelBox windows = PixelBox{x, y, x + columns * lanes, y + rows * lanes}.clipped(in_.width, in_.height);
-  const PixelBox promised = box_of(set);
-  if (windows.empty() || promised.contains(windows)) return;
+  const PixelBox announced = box_of(set);
+  if (windows.empty() || announced.contains(windows)) return;
   const auto text = [](const PixelBox& box) {
     return "x " + std::to_string(box.x0) + ".." + std::to_string(box.x1 - 1) + ", y " + std::to_string(box.y0) + ".." +
            std::to_string(box.y1 - 1);
   };
-  refuse("splat is outside the rectangle of cull_block " + std::to_string(set.tag), "within " + text(promised),
+  refuse("splat is outside the rectangle of cull_block " + std::to_string(set.tag), "within " + text(announced),
          text(windows));
 }
 

@@ -54,10 +54,10 @@ class StreamDecode {
   void check(const EllipseRecord& record);
   void check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour, std::uint32_t tag);
   void check(const CullBlock& record);
-  void check_promise(const CullBlock& record);
+  void check_announced(const CullBlock& record);
   /// Checks the next splat, columns x rows windows from pixel (x,y) on, against the rectangle of its cull group
   /// (S-cull-7).
-  void check_promise(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
+  void check_announced(std::uint32_t tag, std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
   void check(const EndSheet& record);
   void check(const EndTile& record);
   void check(const EndFrame& record);

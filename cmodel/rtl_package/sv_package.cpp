@@ -245,10 +245,10 @@ std::string sv_package(const Config& config) {
   p.vector("TABLE_SHEETS", 8, static_cast<std::uint64_t>(Table::Sheets));
 
   p.section(
-      "what a beat may hold: bits with a name, the last word first; rules in the order in which a record is judged");
+      "what a beat may hold: bits with a name, the last word first; rules in the order in which a record is checked");
   for (const auto& record : record_layouts()) p.beat("USED_" + upper(record.name), used_bits(record));
 #define X(name, value, register_name, meaning) \
-  if (judged_by_device(StreamRule::name)) p.number("RULE_" #register_name, value);
+  if (checked_by_device(StreamRule::name)) p.number("RULE_" #register_name, value);
   FASTSPLAT_STREAM_RULES(X)
 #undef X
   p.number("RHO_MOST", std::int64_t{config.rlut_columns} * config.grid() / 2);

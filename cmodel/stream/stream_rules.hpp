@@ -45,7 +45,7 @@ enum class StreamRule : std::uint8_t {
 };
 
 /// Whether a device checks the rule, too. Only a reader checks the others; writers of streams have to keep them.
-constexpr bool judged_by_device(StreamRule rule) {
+constexpr bool checked_by_device(StreamRule rule) {
   return rule != StreamRule::Shape && rule != StreamRule::Promise && rule != StreamRule::Whole;
 }
 

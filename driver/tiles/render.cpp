@@ -28,7 +28,7 @@ namespace {
 constexpr int kBandRows = 64;
 
 /// Called when a tile is done.
-using Told = std::function<void()>;
+using OnTile = std::function<void()>;
 
 /// One tile's result besides its pixels.
 struct TileResult {
@@ -86,21 +86,21 @@ std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
 
 /// Tiles are independent: each has its own device, as with several chips.
 std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int threads, cmodel::PixelSink& pixels,
-                                       const Told& told) {
+                                       const OnTile& on_tile) {
   std::vector<TileResult> results(static_cast<std::size_t>(compiled.grid().count()));
   const std::vector<std::uint64_t> bands = compiled.work();
   std::vector<std::uint64_t> work(results.size());
   for (std::size_t i = 0; i < bands.size(); ++i) work[i / static_cast<std::size_t>(compiled.bands())] += bands[i];
   parallel_for(work, threads, [&](std::size_t tile) {
     results[tile] = draw_plain(compiled, static_cast<int>(tile), pixels);
-    told();
+    on_tile();
   });
   return results;
 }
 
 /// Bands are independent, too. The thread that finishes a tile's last band combines them or redraws the tile.
 std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmodel::fast::FrameTables& tables,
-                                      int threads, cmodel::PixelSink& pixels, const Told& told) {
+                                      int threads, cmodel::PixelSink& pixels, const OnTile& on_tile) {
   const auto tiles = static_cast<std::size_t>(compiled.grid().count());
   const auto each = static_cast<std::size_t>(compiled.bands());
   std::vector<TileResult> results(tiles);
@@ -115,7 +115,7 @@ std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmode
     const auto whole = whole_tile(std::span(bands).subspan(tile * each, each));
     results[tile] = whole ? *whole : draw_plain(compiled, t, pixels);
     if (!whole) results[tile].units.redone = 1;
-    told();
+    on_tile();
   });
   return results;
 }
@@ -142,11 +142,11 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
                            : std::optional<cmodel::fast::FrameTables>{};
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
   std::atomic<std::size_t> done{0};
-  const Told told = [&] {
+  const OnTile on_tile = [&] {
     if (options.progress) options.progress(done.fetch_add(1) + 1, static_cast<std::size_t>(compiled.grid().count()));
   };
-  const std::vector<TileResult> results = tables ? draw_all_fast(compiled, *tables, options.threads, frame, told)
-                                                 : draw_all_plain(compiled, options.threads, frame, told);
+  const std::vector<TileResult> results = tables ? draw_all_fast(compiled, *tables, options.threads, frame, on_tile)
+                                                 : draw_all_plain(compiled, options.threads, frame, on_tile);
 
   DeviceRender out;
   out.report = compiled.report();

@@ -221,10 +221,10 @@ std::vector<Gate> gates_of(const Result& result) {
   std::vector<Gate> gates;
   if (found != all.end()) gates = found->second(Figures(result));
   // A failure that no gate shows needs one, and a result without gates gets one.
-  const bool told =
+  const bool shown =
       std::any_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.status != Status::Pass; });
   const bool failed = verdict.status == Status::Fail || verdict.status == Status::Error;
-  if (gates.empty() || (failed && !told))
+  if (gates.empty() || (failed && !shown))
     gates.push_back({.name = "verdict",
                      .status = failed ? verdict.status : Status::Pass,
                      .message = verdict.sentence,

@@ -91,14 +91,14 @@ const char* mark(Status status) {
 /// A plan's gates are its rows, so only its failures are listed.
 std::string gates_text(const Result& result) {
   std::string text;
-  std::size_t told = 0, left = 0;
+  std::size_t listed = 0, left = 0;
   for (const Gate& gate : gates_of(result)) {
     if (result.subcommand == "plan" && gate.status == Status::Pass) continue;
-    if (told == kMostRows) {
+    if (listed == kMostRows) {
       ++left;
       continue;
     }
-    ++told;
+    ++listed;
     text += row_text({cell(gate.name), mark(gate.status), cell(gate.message),
                       gate.status == Status::Pass ? "" : cell(gate.command)});
   }

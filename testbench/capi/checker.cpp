@@ -37,7 +37,7 @@ CheckerSetup setup_of(const char* call, const cmodel::Config& config, const fast
 
 /// The text of `say`, kept with the checker; "" if the checker is not a live one.
 template <class Say>
-const char* told(const fastsplat_checker* checker, const char* function, Say say) {
+const char* kept_text(const fastsplat_checker* checker, const char* function, Say say) {
   const char* out = "";
   guarded(function, [&](const char* call) {
     const auto& of = live(call, checker);
@@ -159,11 +159,11 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_checker_report(const fastspl
 }
 
 extern "C" FASTSPLAT_API const char* fastsplat_checker_first_mismatch(const fastsplat_checker* checker) {
-  return told(checker, __func__, [](const CheckerRun& run) { return run.first_mismatch(); });
+  return kept_text(checker, __func__, [](const CheckerRun& run) { return run.first_mismatch(); });
 }
 
 extern "C" FASTSPLAT_API const char* fastsplat_checker_summary(const fastsplat_checker* checker) {
-  return told(checker, __func__, [](const CheckerRun& run) { return run.summary(); });
+  return kept_text(checker, __func__, [](const CheckerRun& run) { return run.summary(); });
 }
 
 }  // namespace fastsplat::capi

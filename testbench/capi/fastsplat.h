@@ -154,8 +154,8 @@ typedef struct fastsplat_pattern fastsplat_pattern;
 
 FASTSPLAT_API fastsplat_status fastsplat_pattern_create(const char* text, uint64_t seed, fastsplat_pattern** out);
 FASTSPLAT_API fastsplat_status fastsplat_pattern_destroy(fastsplat_pattern* pattern);
-/// *willing: 1 if the side is ready in cycle `cycle` after reset, else 0.
-FASTSPLAT_API fastsplat_status fastsplat_pattern_at(const fastsplat_pattern* pattern, uint64_t cycle, int32_t* willing);
+/// *ready: 1 if the side is ready in cycle `cycle` after reset, else 0.
+FASTSPLAT_API fastsplat_status fastsplat_pattern_at(const fastsplat_pattern* pattern, uint64_t cycle, int32_t* ready);
 
 // ---- the checker: compares what a device took and what its ports show with the model
 

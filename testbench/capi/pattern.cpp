@@ -38,7 +38,7 @@ extern "C" FASTSPLAT_API fastsplat_status fastsplat_pattern_at(const fastsplat_p
                                                                std::int32_t* ready) {
   return guarded(__func__, [&](const char* call) {
     require_live(call, pattern, Kind::Pattern);
-    *require(call, "willing", ready) = pattern->pattern.at(cycle) ? 1 : 0;
+    *require(call, "ready", ready) = pattern->pattern.at(cycle) ? 1 : 0;
     return FASTSPLAT_OK;
   });
 }

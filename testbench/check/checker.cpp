@@ -56,7 +56,7 @@ void Checker::on_raw(const RawTap& tap) {
 void Checker::check_verdict(const RawTap& tap) {
   if (!options_.verdicts || !cycle_model_ || stopped()) return;
   ++comparisons_;
-  if (const auto difference = verdicts_.told(tap)) differ(Detector::Verdicts, *difference);
+  if (const auto difference = verdicts_.compare(tap)) differ(Detector::Verdicts, *difference);
 }
 
 void Checker::accept(const cmodel::Beat& beat) {

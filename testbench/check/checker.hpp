@@ -71,7 +71,7 @@ class Checker final : public RawTapSink {
   bool started() const { return cycle_model_.has_value(); }
   /// The cycle in which an illegal beat taken in cycle `taken` is checked, by the cycle model; 0 if cycles are not
   /// compared.
-  std::uint64_t judged(std::uint64_t taken) const { return cycle_model_ ? cycle_model_->judged(taken) : 0; }
+  std::uint64_t checked_at(std::uint64_t taken) const { return cycle_model_ ? cycle_model_->checked_at(taken) : 0; }
 
   /// Throws UserError (Input) for a beat that breaks docs/stream.md. After stopped() nothing more is expected.
   void accept(const cmodel::Beat& beat) override;

@@ -6,13 +6,13 @@ namespace {
 
 std::string words(const cmodel::VerdictCycles& verdict) {
   return "tag " + std::to_string(verdict.tag) + (verdict.hidden ? " hidden" : " visible") + " in cycle " +
-         std::to_string(verdict.told);
+         std::to_string(verdict.reported);
 }
 
 }  // namespace
 
-std::optional<std::string> VerdictCheck::told(const RawTap& tap) {
-  const cmodel::VerdictCycles got{.tag = tap.tag, .hidden = tap.hidden, .told = tap.cycle};
+std::optional<std::string> VerdictCheck::compare(const RawTap& tap) {
+  const cmodel::VerdictCycles got{.tag = tap.tag, .hidden = tap.hidden, .reported = tap.cycle};
   if (expected_.empty()) return "verdict: expected none, RTL " + words(got);
   const cmodel::VerdictCycles expected = expected_.front();
   expected_.pop_front();

@@ -22,7 +22,7 @@ class VerdictCheck final : public cmodel::CycleSink {
   void on_tile(const cmodel::TileCycles& /*tile*/) override {}
 
   /// Compares a verdict that was given; returns the difference as text.
-  std::optional<std::string> told(const RawTap& tap);
+  std::optional<std::string> compare(const RawTap& tap);
   /// Takes the next verdict that was not given; returns it as text.
   std::optional<std::string> missing();
 

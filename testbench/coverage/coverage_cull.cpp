@@ -59,7 +59,7 @@ void CullCoverage::set(const cmodel::CullBlock& set, bool hidden) {
 
 void CullCoverage::splat(std::uint32_t tag, const cmodel::CullCounts& found) {
   if (tag != next_tag_ && tag > next_tag_) coverage_.hit(jump_);
-  if (found.swallowed > before_.swallowed) {
+  if (found.dropped > before_.dropped) {
     coverage_.hit(splat_ + SplatOfHiddenSet);
   } else if (found.hidden_splats > before_.hidden_splats) {
     coverage_.hit(splat_ + SplatHidden);

@@ -49,10 +49,10 @@ struct RegisterAnswer {
 /// Half of a write's offer.
 enum class WriteHalf { Address, Data };
 
-/// Refusal of an illegal beat. `judged`: the cycle before that in which error rises. If the beat is dropped because of
+/// Refusal of an illegal beat. `checked`: the cycle before that in which error rises. If the beat is dropped because of
 /// an earlier refusal, the cycle of its transfer.
 struct Refusal {
-  std::uint64_t taken = 0, judged = 0;
+  std::uint64_t taken = 0, checked = 0;
 };
 
 /// If the device refuses the stream, consume() throws UserError (Simulation) once; later beats are dropped until a

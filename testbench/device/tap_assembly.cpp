@@ -158,8 +158,8 @@ void TapAssembly::composite(const RawTap& tap) {
     state_fields_.unpack(tap.words.data(), kWords * banks_, banked_.data());
     arrange(window.at, tile());
     // The port's block must be 0 here; any other value makes the place differ.
-    const Place told{.x = window.at.x + static_cast<std::int32_t>(tap.block), .y = window.at.y};
-    emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, told, payload_);
+    const Place at{.x = window.at.x + static_cast<std::int32_t>(tap.block), .y = window.at.y};
+    emit(cmodel::Tap::Composite, tap.cycle, sheet_of(window.tag), window.tag, at, payload_);
     return;
   }
   pass_sheets(tap.cycle);

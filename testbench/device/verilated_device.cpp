@@ -70,7 +70,7 @@ class VerilatedDevice final : public RtlDevice {
     // It may lie behind a beat that waits in decode.
     for (const std::uint64_t since = cycle_; !ports_.error_o && !hangs(since);) cycle();
     if (!ports_.error_o) return std::nullopt;
-    return Refusal{.taken = taken, .judged = cycle_ - 1};
+    return Refusal{.taken = taken, .checked = cycle_ - 1};
   }
 
   void drop(std::span<const cmodel::Beat> beats) override {

@@ -19,11 +19,11 @@ class WrongTaps final : public RawTapSink {
     if (tap.port == RawPort::Composite) ++blocks_;
     const bool second = tap.port == RawPort::Composite && blocks_ == 2;
     if (tap.port == RawPort::Pixels && tap.last) blocks_ = 0;
-    RawTap told = tap;
+    RawTap wrong = tap;
     switch (fault_) {
       case PortFault::PORT_SNAP:
-        if (tap.port == RawPort::Snap && seventh) told.mx ^= 1;
-        return to_->on_raw(told);
+        if (tap.port == RawPort::Snap && seventh) wrong.mx ^= 1;
+        return to_->on_raw(wrong);
       case PortFault::PORT_FOOTPRINT:
         return flipped(tap, tap.port == RawPort::Window && seventh);
       case PortFault::PORT_SHEET:
@@ -50,9 +50,9 @@ class WrongTaps final : public RawTapSink {
     if (!here) return to_->on_raw(tap);
     std::vector<std::uint32_t> words(tap.words.begin(), tap.words.end());
     words.front() ^= 1;
-    RawTap told = tap;
-    told.words = words;
-    to_->on_raw(told);
+    RawTap wrong = tap;
+    wrong.words = words;
+    to_->on_raw(wrong);
   }
 
   PortFault fault_;
@@ -63,7 +63,7 @@ class WrongTaps final : public RawTapSink {
 /// Holds the taps for as long as the device lives: a base of the device's own base class.
 struct Ports {
   WrongTaps taps;
-  RtlOptions told(RtlOptions options) {
+  RtlOptions tapped(RtlOptions options) {
     if (options.taps != nullptr) options.taps = &taps;
     return options;
   }
@@ -73,7 +73,7 @@ class WrongDevice final : private Ports, public PassingDevice {
  public:
   WrongDevice(PortFault fault, MakeHealthy make, const cmodel::Config& config, cmodel::PixelSink& pixels,
               const RtlOptions& options)
-      : Ports{WrongTaps(fault, options.taps)}, PassingDevice(make(config, pixels, told(options))), fault_(fault) {}
+      : Ports{WrongTaps(fault, options.taps)}, PassingDevice(make(config, pixels, tapped(options))), fault_(fault) {}
 
   const cmodel::Counters& counters() const override {
     counters_ = PassingDevice::counters();

@@ -90,7 +90,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
   std::vector<char> late(count, 0);
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<std::size_t> failed = count;  ///< the first run that did not pass
-  std::mutex telling;
+  std::mutex reporting;
   parallel_for(count, options.threads, [&](std::size_t) {
     // In order, whichever thread takes it: a failure is known as early as possible.
     const std::size_t i = next++;
@@ -105,7 +105,7 @@ CampaignResult run_campaign(const CampaignOptions& options) {
     }
     ++done;
     if (options.progress) {
-      const std::lock_guard lock(telling);
+      const std::lock_guard lock(reporting);
       options.progress(done, count);
     }
   });

@@ -97,11 +97,11 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   const std::uint64_t aborted = device_->aborted_tiles();
   const auto refusal = device_->refuse(beats[expected.beat]);
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
-  if (refusal) check_.equal(what + ": checked in cycle", checker_->judged(refusal->taken), refusal->judged, bin);
+  if (refusal) check_.equal(what + ": checked in cycle", checker_->checked_at(refusal->taken), refusal->checked, bin);
   const Closers closers = closers_of(before);
   // The device's own end records lie where the refused beat lay, a cycle later: as if check had taken them in the cycle
   // before the verdict.
-  if (refusal) source_.pause(0, refusal->judged - (device_->sliced() ? 2 : 1));
+  if (refusal) source_.pause(0, refusal->checked - (device_->sliced() ? 2 : 1));
   for (const auto& beat : closers.beats) checker_->accept(beat);
   const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));
   const auto error = [&] {
@@ -138,7 +138,7 @@ void Frames::cut(const std::string& what, std::span<const cmodel::Beat> beats, i
   check_.equal(what + ": IRQ, error", 0, read(cmodel::kRegIrq) & cmodel::kIrqError, bin);
   relay_.to = nullptr;
   // The cycle model does not know when the reset came.
-  if (next.empty() && !closers.in_table) told(what, checker_->finish(), bin);
+  if (next.empty() && !closers.in_table) record(what, checker_->finish(), bin);
 }
 
 void Frames::follow(const std::string& what, const Beats& next, bool in_table, Coverage::Id bin) {
@@ -147,8 +147,8 @@ void Frames::follow(const std::string& what, const Beats& next, bool in_table, C
   device_->consume(next);
   device_->finish();
   relay_.to = nullptr;
-  if (!in_table) told(what, checker_->finish(), bin);
-  told(what + ", the next frame", after.finish(), bin);
+  if (!in_table) record(what, checker_->finish(), bin);
+  record(what + ", the next frame", after.finish(), bin);
   // The counters were not cleared in between: they count both.
   cmodel::Counters both = checker_->counted();
   both += after.counted();
@@ -193,10 +193,10 @@ void Frames::end(const std::string& what, Coverage::Id bin, bool in_table) {
   device_->finish();
   relay_.to = nullptr;
   if (in_table) return;  // neither model knows an end there, and nothing but words was taken
-  told(what, checker_->finish(device_->counters(), device_->cycle_counters()), bin);
+  record(what, checker_->finish(device_->counters(), device_->cycle_counters()), bin);
 }
 
-void Frames::told(const std::string& what, const CheckReport& report, Coverage::Id bin) {
+void Frames::record(const std::string& what, const CheckReport& report, Coverage::Id bin) {
   check_.result.comparisons += report.comparisons;
   std::string how = what + ": mismatches";
   if (report.first)

@@ -96,7 +96,7 @@ class Frames {
   void end(const std::string& what, Coverage::Id bin, bool in_table);
   /// Behind a soft reset, with the tables or tile of the cut frame closed.
   void follow(const std::string& what, const Beats& next, bool in_table, Coverage::Id bin);
-  void told(const std::string& what, const CheckReport& report, Coverage::Id bin);
+  void record(const std::string& what, const CheckReport& report, Coverage::Id bin);
 
   cmodel::Config config_;
   Check& check_;

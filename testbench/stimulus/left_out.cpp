@@ -10,9 +10,9 @@ std::vector<cmodel::Beat> without_hidden_sets(const cmodel::Config& config, cons
   cmodel::Model model(config, cmodel::StreamScope::Subset, nowhere);
   std::vector<cmodel::Beat> out;
   for (const cmodel::Beat& beat : beats) {
-    const std::uint64_t before = model.culls().swallowed;
+    const std::uint64_t before = model.culls().dropped;
     model.consume({&beat, 1});
-    if (model.culls().swallowed == before) out.push_back(beat);
+    if (model.culls().dropped == before) out.push_back(beat);
   }
   return out;
 }

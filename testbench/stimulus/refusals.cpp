@@ -26,7 +26,7 @@ constexpr RuleName kRules[] = {
 const char* bin_of(StreamRule rule) {
   return std::find_if(std::begin(kRules), std::end(kRules), [&](const RuleName& one) { return one.rule == rule; })->bin;
 }
-bool judged(StreamRule rule) { return rule != StreamRule::None && cmodel::judged_by_device(rule); }
+bool checked_in_device(StreamRule rule) { return rule != StreamRule::None && cmodel::checked_by_device(rule); }
 
 constexpr const char* kOtherBins[] = {"open_tile_is_ended",
                                       "rest_is_swallowed",
@@ -49,7 +49,7 @@ bool begins_a_frame(const cmodel::Beat& beat) {
 Coverage refusal_bins() {
   Coverage bins;
   for (const auto& [rule, name] : kRules) {
-    if (judged(rule)) bins.declare("refusal", name);
+    if (checked_in_device(rule)) bins.declare("refusal", name);
   }
   for (const char* name : kOtherBins) bins.declare("refusal", name);
   for (const char* name : mid_frame_bins()) bins.declare("refusal", name);
@@ -199,7 +199,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     if (end) damaged.resize(*end);
     const std::string what = "damaged stream " + std::to_string(i);
     if (const auto expected = refused_by_model(config, damaged)) {
-      if (!judged(expected->rule)) continue;  // an ellipse's shape: devices do not check it
+      if (!checked_in_device(expected->rule)) continue;  // an ellipse's shape: devices do not check it
       after_reset = true;
       check.result.refused[bin_of(expected->rule)] += frames.bad(what, damaged, *expected, refused) ? 1 : 0;
       frames.forgive();

@@ -86,19 +86,19 @@ class Walk {
       sheet_.accumulate(left, top, weights, record.colour, unused, nobody_);
       return false;
     }
-    const bool told = wanted && here(cmodel::Tap::Composite, record.tag);
+    const bool wanted_here = wanted && here(cmodel::Tap::Composite, record.tag);
     for (std::size_t lane = 0; lane < weights.size(); ++lane) {
       const std::int32_t x = left + static_cast<std::int32_t>(lane % lanes());
       const std::int32_t y = top + static_cast<std::int32_t>(lane / lanes());
       cmodel::SheetWord products{};
       for (std::size_t c = 0; c < 4; ++c) products[c] = lane_.product(record.colour[c], weights[lane], nobody_);
-      if (told && lane == word_ / 4) return composite(x, y, products, "sample"), true;
+      if (wanted_here && lane == word_ / 4) return composite(x, y, products, "sample"), true;
       if (weights[lane] != 0 && sheet_.inside(x, y)) compositor_.step(products, x, y, unused, nobody_);
     }
     return false;
   }
 
-  void tell(std::string text) {
+  void found(std::string text) {
     text_ = std::move(text);
     found_ = true;
   }
@@ -107,11 +107,11 @@ class Walk {
     const std::uint32_t rho = rlut_.rho(record.set);
     const auto x = cmodel::snap(config_, record.x, rho), y = cmodel::snap(config_, record.y, rho);
     if (here(cmodel::Tap::Snap, record.tag)) {
-      return tell("centre x=" + hex(record.x) + " y=" + hex(record.y) + " (S " +
-                  std::to_string(config_.position_int_bits) + "." + std::to_string(config_.position_frac_bits) +
-                  "), set " + std::to_string(record.set) + " rho=" + std::to_string(rho) +
-                  ": x0=" + std::to_string(x.origin) + " mx=" + std::to_string(x.phase) +
-                  ", y0=" + std::to_string(y.origin) + " my=" + std::to_string(y.phase));
+      return found("centre x=" + hex(record.x) + " y=" + hex(record.y) + " (S " +
+                   std::to_string(config_.position_int_bits) + "." + std::to_string(config_.position_frac_bits) +
+                   "), set " + std::to_string(record.set) + " rho=" + std::to_string(rho) +
+                   ": x0=" + std::to_string(x.origin) + " mx=" + std::to_string(x.phase) +
+                   ", y0=" + std::to_string(y.origin) + " my=" + std::to_string(y.phase));
     }
     std::vector<std::uint32_t> weights(lanes() * lanes());
     const std::uint32_t extent = rlut_.extent(record.set), step = static_cast<std::uint32_t>(config_.lanes);
@@ -122,8 +122,8 @@ class Walk {
         const std::int32_t left = x.origin + static_cast<std::int32_t>(column);
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
         if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag))
-          return tell(weight(record, columns[word_ % lanes()], rows[word_ / lanes()], x.phase, y.phase,
-                             column + word_ % lanes(), row + word_ / lanes()));
+          return found(weight(record, columns[word_ % lanes()], rows[word_ / lanes()], x.phase, y.phase,
+                              column + word_ % lanes(), row + word_ / lanes()));
         if (window(record, left, top, weights)) return;
       }
     }
@@ -134,10 +134,10 @@ class Walk {
     const auto y = cmodel::ellipse_axis(config_, record.y, record.windows.top);
     const cmodel::EllipseShape& shape = record.shape;
     if (here(cmodel::Tap::Snap, record.tag)) {
-      return tell("ellipse, centre x=" + hex(record.x) + " y=" + hex(record.y) +
-                  ", left=" + std::to_string(record.windows.left) + " top=" + std::to_string(record.windows.top) +
-                  ": x0=" + std::to_string(x.origin) + " X=" + std::to_string(x.distance) +
-                  ", y0=" + std::to_string(y.origin) + " Y=" + std::to_string(y.distance));
+      return found("ellipse, centre x=" + hex(record.x) + " y=" + hex(record.y) +
+                   ", left=" + std::to_string(record.windows.left) + " top=" + std::to_string(record.windows.top) +
+                   ": x0=" + std::to_string(x.origin) + " X=" + std::to_string(x.distance) +
+                   ", y0=" + std::to_string(y.origin) + " Y=" + std::to_string(y.distance));
     }
     const cmodel::EllipseUnit unit(config_);
     const auto f = unit.coefficients(shape, x.distance, y.distance);
@@ -150,7 +150,7 @@ class Walk {
         const std::int32_t top = y.origin + static_cast<std::int32_t>(row);
         if (at_.x == left && at_.y == top && here(cmodel::Tap::Footprint, record.tag)) {
           const std::size_t i = column + word_ % lanes(), j = row + word_ / lanes();
-          return tell(
+          return found(
               "A=" + std::to_string(shape.a) + " B=" + std::to_string(shape.b) + " C=" + std::to_string(shape.c) +
               " h=" + std::to_string(shape.shift) + ": u0=" + std::to_string(f.u0) + " u1=" + std::to_string(f.u1) +
               " u2=" + std::to_string(f.u2) + " v1=" + std::to_string(f.v1) + " v2=" + std::to_string(f.v2) +
@@ -180,12 +180,12 @@ class Walk {
     const std::int32_t x = left + static_cast<std::int32_t>(lane % lanes());
     const std::int32_t y = top + static_cast<std::int32_t>(lane / lanes());
     if (!sheet_.inside(x, y))
-      return tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
+      return found("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
     const auto product = cmodel::narrowing(
         config_, cmodel::Site::Product)(static_cast<std::int64_t>(record.colour[channel]) * weights[lane]);
-    tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + "): sum before " + hex(sheet_.at(x, y)[channel]) +
-         ", colour " + kChannels[channel] + "=" + hex(record.colour[channel]) + " x weight " + hex(weights[lane]) +
-         " = product " + hex(product.word) + (product.overflow ? " (saturated)" : ""));
+    found("pixel (" + std::to_string(x) + "," + std::to_string(y) + "): sum before " + hex(sheet_.at(x, y)[channel]) +
+          ", colour " + kChannels[channel] + "=" + hex(record.colour[channel]) + " x weight " + hex(weights[lane]) +
+          " = product " + hex(product.word) + (product.overflow ? " (saturated)" : ""));
   }
 
   void end_sheet() {
@@ -208,7 +208,7 @@ class Walk {
   /// Explains a pixel before the sums of `what` are composited.
   void composite(int x, int y, const cmodel::SheetWord& sums, const char* what) {
     if (!sheet_.inside(x, y))
-      return tell("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
+      return found("pixel (" + std::to_string(x) + "," + std::to_string(y) + ") is outside the tile");
     const auto& state = compositor_.at(x, y);
     std::string text = "pixel (" + std::to_string(x) + "," + std::to_string(y) + ") before: ";
     const bool summing = tile_.mode == cmodel::Mode::Sum;
@@ -230,14 +230,14 @@ class Walk {
       if (state[3] < static_cast<std::uint32_t>(config_.freeze_below))
         text += "; frozen (T < " + hex(config_.freeze_below) + ")";
     }
-    tell(text);
+    found(text);
   }
 
   void pixel() {
     const auto& state = compositor_.at(at_.x, at_.y);
     std::string text = "state";
     for (const std::uint32_t word : state) text += " " + hex(word);
-    tell(text + (tile_.mode == cmodel::Mode::Sum ? " (X-ray sums)" : " (C_R C_G C_B T)"));
+    found(text + (tile_.mode == cmodel::Mode::Sum ? " (X-ray sums)" : " (C_R C_G C_B T)"));
   }
 
   const cmodel::Config& config_;

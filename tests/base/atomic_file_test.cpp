@@ -89,10 +89,10 @@ TEST_F(AtomicFileTest, AFullDiskKeepsTheOldFile) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{.rlim_cur = 4096, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string told = message(path, std::string(100000, 'x'));
+  const std::string text = message(path, std::string(100000, 'x'));
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_THAT(told, HasSubstr("cannot write"));
+  EXPECT_THAT(text, HasSubstr("cannot write"));
   EXPECT_EQ(read_text_file(path), "old");
   EXPECT_EQ(files(), 1u);
 }

@@ -102,7 +102,7 @@ TEST_F(Unfinished, AChildEndsWithItsParentHoweverThatEnds) {
     const pid_t self = ::getpid();
     if (::fork() == 0) {
       end_with_parent(self);
-      [[maybe_unused]] const auto told = ::write(ends[1], "x", 1);
+      [[maybe_unused]] const auto written = ::write(ends[1], "x", 1);
       ::alarm(20);
       ::pause();
       ::_exit(0);

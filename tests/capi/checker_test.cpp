@@ -20,7 +20,7 @@ fastsplat_report report_of(const Checker& checker) {
 
 fastsplat_status run(const Truth& truth, const Checker& checker, std::uint32_t given = ~0U) {
   EXPECT_EQ(fastsplat_checker_start(checker.handle, kFirstBeat), FASTSPLAT_OK) << fastsplat_last_error();
-  EXPECT_EQ(tell(truth.events, checker.handle, given), FASTSPLAT_OK) << fastsplat_last_error();
+  EXPECT_EQ(report_all(truth.events, checker.handle, given), FASTSPLAT_OK) << fastsplat_last_error();
   return fastsplat_checker_finish(checker.handle, truth.counters.data(), truth.counters.size());
 }
 
@@ -121,7 +121,7 @@ TEST(CapiChecker, ARefusedStreamNamesItself) {
 TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
   using testbench::RawPort;
   const Truth& truth = truth_of("tiny");
-  const auto tell_all = [&](RawPort wrong, const char* what, auto spoil) {
+  const auto check_port = [&](RawPort wrong, const char* what, auto spoil) {
     void* checker = fastsplat_dpi_checker("tiny", cmodel::config_hash(truth.config), "always", "always", 1);
     ASSERT_NE(checker, nullptr) << fastsplat_last_error();
     const auto owner = static_cast<fastsplat_checker*>(checker);
@@ -162,16 +162,16 @@ TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
     EXPECT_NE(first.find(what), std::string::npos) << first;
     EXPECT_EQ(fastsplat_checker_destroy(owner), FASTSPLAT_OK);
   };
-  tell_all(RawPort::SheetDone, "", [](auto&) {});
+  check_port(RawPort::SheetDone, "", [](auto&) {});
   for (const auto& [port, what] : {std::pair{RawPort::Snap, "stage snap, tile 9"},
                                    {RawPort::Sheet, "stage sheet, tile 9"},
                                    {RawPort::Window, "stage footprint, tile 9"},
                                    {RawPort::Composite, "stage composite, tile 9"},
                                    {RawPort::Pixels, "stage pixel, tile 9"}})
-    tell_all(port, what, [](auto& tap) { tap.tile = 9; });
-  tell_all(RawPort::Pixels, "RTL has stage pixel", [](auto& tap) { *tap.keep ^= 1; });
-  tell_all(RawPort::Pixels, "marked as belonging to an aborted tile", [](auto& tap) { tap.cut = true; });
-  tell_all(RawPort::Verdict, "verdict: expected none, RTL tag 7 hidden", [](auto&) {});
+    check_port(port, what, [](auto& tap) { tap.tile = 9; });
+  check_port(RawPort::Pixels, "RTL has stage pixel", [](auto& tap) { *tap.keep ^= 1; });
+  check_port(RawPort::Pixels, "marked as belonging to an aborted tile", [](auto& tap) { tap.cut = true; });
+  check_port(RawPort::Verdict, "verdict: expected none, RTL tag 7 hidden", [](auto&) {});
 }
 
 TEST(CapiChecker, WhatABenchDoesNotHaveIsNotCompared) {
@@ -208,7 +208,7 @@ TEST(CapiChecker, ASilentDeviceFailsAndCountersMayBeLeftOut) {
   const Checker silent(config), quiet(config);
   ASSERT_EQ(fastsplat_checker_took(silent.handle, words_of(truth.beats), truth.beats.size()), FASTSPLAT_OK);
   EXPECT_EQ(fastsplat_checker_finish(silent.handle, nullptr, 0), FASTSPLAT_FAILED);
-  EXPECT_EQ(tell(truth.events, quiet.handle), FASTSPLAT_OK);
+  EXPECT_EQ(report_all(truth.events, quiet.handle), FASTSPLAT_OK);
   EXPECT_EQ(fastsplat_checker_finish(quiet.handle, nullptr, 0), FASTSPLAT_OK) << fastsplat_last_error();
   EXPECT_EQ(report_of(quiet).cycles_compared, 0);
 }

@@ -33,7 +33,7 @@ const Truth& truth_of(const std::string& name) {
 
 const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats) { return beats.front().data(); }
 
-fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given) {
+fastsplat_status report_all(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given) {
   for (const auto& event : events) {
     fastsplat_status status = FASTSPLAT_OK;
     if (event.beat) {

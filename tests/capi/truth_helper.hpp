@@ -26,7 +26,7 @@ const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats);
 
 /// Tells the checker everything in order, of what may be left out FASTSPLAT_GIVEN_...; the first status that is not
 /// FASTSPLAT_OK, or that.
-fastsplat_status tell(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given = ~0U);
+fastsplat_status report_all(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given = ~0U);
 
 /// Handles that destroy themselves; creating one that cannot be created is a failure of the test.
 struct Config {

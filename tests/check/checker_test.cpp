@@ -191,7 +191,7 @@ TEST_P(Checked, EveryBankOfAWindow) {
 }
 
 /// Banks x 4 words: each that lies in the tile counts, no other does (M-tap-4).
-void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& tell,
+void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& visit,
                int& outside) {
   const auto banks = static_cast<std::size_t>(right.config.lanes) * static_cast<std::size_t>(right.config.lanes);
   const auto width = static_cast<std::size_t>(bits);
@@ -202,7 +202,7 @@ void each_word(const Truth& right, std::size_t at, int bits, const std::function
     const std::size_t bit = word * width + word % width;
     const Truth other = with(right, at, [&](RawEvent& event) { event.words[bit / 32] ^= 1U << bit % 32; });
     if (!ones) {
-      tell(other);
+      visit(other);
     } else if (check(other).mismatches == 0) {
       ++outside;
     }
@@ -252,8 +252,8 @@ TEST_P(Checked, TheSheetOfABlock) {
         right.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, right.events.end(),
         [](const RawEvent& event) { return shows(event, RawPort::Composite) || shows(event, RawPort::Pixels); });
     if (next == right.events.end() || !shows(*next, RawPort::Composite)) continue;
-    seen(without(right, at), Detector::Composite, "a sheet whose end is not told");
-    seen(twice(right, at), Detector::Composite, "a sheet whose end is told twice");
+    seen(without(right, at), Detector::Composite, "a sheet whose end is not reported");
+    seen(twice(right, at), Detector::Composite, "a sheet whose end is reported twice");
     ++tried;
   }
   EXPECT_GT(tried, 0);

@@ -20,7 +20,7 @@ struct Record {
 struct Difference {
   const char* what;
   std::function<void(Record&)> make;
-  const char* told;  ///< in the report
+  const char* reported;  ///< in the report
 };
 
 const std::vector<Difference>& differences() {
@@ -71,7 +71,7 @@ TEST(Scoreboard, SeesEveryDifferenceAndTellsIt) {
     EXPECT_EQ(board.mismatches(), 1u) << difference.what;
     ASSERT_TRUE(board.first() != nullptr) << difference.what;
     const std::string text = describe(config, *board.first());
-    EXPECT_NE(text.find(difference.told), std::string::npos) << difference.what << ": " << text;
+    EXPECT_NE(text.find(difference.reported), std::string::npos) << difference.what << ": " << text;
   }
   std::printf("[figure] differences of a record = %zu, all seen\n", differences().size());
 }

@@ -18,8 +18,9 @@ using testbench::Detector;
 using testbench::RawPort;
 using testbench::RawTap;
 
-RawTap told(const VerdictCycles& verdict) {
-  return {.port = RawPort::Verdict, .cycle = verdict.told, .tag = verdict.tag, .hidden = verdict.hidden, .words = {}};
+RawTap tap_of(const VerdictCycles& verdict) {
+  return {
+      .port = RawPort::Verdict, .cycle = verdict.reported, .tag = verdict.tag, .hidden = verdict.hidden, .words = {}};
 }
 
 std::vector<cmodel::Beat> stream(const cmodel::Config& config) {
@@ -64,7 +65,7 @@ class Verdicts : public ::testing::Test {
     for (const auto& verdict : right_) check.on_verdict(verdict);
     std::vector<std::string> out;
     for (const auto& verdict : shown)
-      if (const auto difference = check.told(told(verdict))) out.push_back(*difference);
+      if (const auto difference = check.compare(tap_of(verdict))) out.push_back(*difference);
     while (const auto missing = check.missing()) out.push_back(*missing);
     return out;
   }
@@ -81,7 +82,7 @@ TEST_F(Verdicts, OnePerCullBlockInTheirOrder) {
     ASSERT_LT(cull_blocks, right_.size());
     EXPECT_EQ(right_[cull_blocks].tag, set->tag);
     if (cull_blocks > 0) {
-      EXPECT_GT(right_[cull_blocks].told, right_[cull_blocks - 1].told);
+      EXPECT_GT(right_[cull_blocks].reported, right_[cull_blocks - 1].reported);
     }
     ++cull_blocks;
   }
@@ -94,7 +95,7 @@ TEST_F(Verdicts, EveryFieldOfEach) {
     auto tag = right_, hidden = right_, late = right_, lost = right_, twice = right_;
     tag[at].tag ^= 1u << at % 32;
     hidden[at].hidden = !hidden[at].hidden;
-    ++late[at].told;
+    ++late[at].reported;
     lost.erase(lost.begin() + static_cast<std::ptrdiff_t>(at));
     twice.insert(twice.begin() + static_cast<std::ptrdiff_t>(at), right_[at]);
     EXPECT_EQ(differences(tag).size(), 1u);
@@ -118,7 +119,7 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
       const cmodel::Record* record = decode.feed(beat);
       if (record == nullptr || !std::holds_alternative<cmodel::CullBlock>(*record)) continue;
       ASSERT_LT(next, right_.size());
-      if (!mute) checker.on_raw(told(right_[next]));
+      if (!mute) checker.on_raw(tap_of(right_[next]));
       ++next;
       if (checker.report().mismatches > 0) break;
     }
@@ -136,13 +137,13 @@ TEST_F(Verdicts, NoneOfADeviceThatDoesNotCull) {
   cmodel::NullPixels pixels;
   testbench::Checker deaf(named_config("tiny"), cmodel::StreamScope::Whole, pixels);
   deaf.start(0);
-  deaf.on_raw(told(right_.front()));
+  deaf.on_raw(tap_of(right_.front()));
   EXPECT_EQ(deaf.report().mismatches, 0u) << "who shows no verdicts is not asked for them";
   testbench::Checker checker(named_config("tiny"), cmodel::StreamScope::Whole, pixels, {.verdicts = true});
-  checker.on_raw(told(right_.front()));
+  checker.on_raw(tap_of(right_.front()));
   EXPECT_EQ(checker.report().mismatches, 0u) << "cycles, and so verdicts, are not compared yet";
   checker.start(0);
-  checker.on_raw(told(right_.front()));
+  checker.on_raw(tap_of(right_.front()));
   EXPECT_EQ(checker.report().detector, Detector::Verdicts);
   ASSERT_EQ(checker.report().differences.size(), 1u);
   EXPECT_NE(checker.report().differences[0].find("expected none"), std::string::npos);

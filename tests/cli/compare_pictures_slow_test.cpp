@@ -44,7 +44,7 @@ class ComparePictures : public ::testing::Test {
     words.insert(words.end(), {"--json", folder_ / "c.json"});
     return fastsplat(words);
   }
-  nlohmann::json told() const { return nlohmann::json::parse(read_bytes(folder_ / "c.json")); }
+  nlohmann::json json_of() const { return nlohmann::json::parse(read_bytes(folder_ / "c.json")); }
   TempFolder folder_;
 };
 
@@ -54,7 +54,7 @@ TEST_F(ComparePictures, APngOfAnotherProgramIsForLooking) {
   const auto ours = images::read_image(folder_ / "ours.png");
   const auto theirs = foreign("theirs.png", ours.image);
   expect_success(compare({folder_ / "ours.png", theirs}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
   const auto mixed = compare({folder_ / "ours.exr", theirs});
   EXPECT_EQ(mixed.code, 4);
   EXPECT_NE(mixed.err.find("is read as a display picture"), std::string::npos) << mixed.err;
@@ -67,7 +67,7 @@ TEST_F(ComparePictures, SrgbSaysThatBothAre) {
   const auto tiff = foreign("theirs.tif", images::read_image(folder_ / "ours.png").image);
   expect_error(compare({folder_ / "ours.png", tiff}), 4, {"or use --srgb if both are display pictures"});
   expect_success(compare({folder_ / "ours.png", tiff, "--srgb"}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
   const auto real = compare({folder_ / "ours.png", folder_ / "ours.exr", "--srgb"});
   EXPECT_EQ(real.code, 4);
   EXPECT_NE(real.err.find("holds float values"), std::string::npos) << real.err;
@@ -78,7 +78,7 @@ TEST_F(ComparePictures, GreyAndOpaqueAlphaAreTheSameColours) {
              rgba = foreign("rgba.png", ramp(4, 1.0f));
   for (const auto& other : {rgb, rgba}) {
     expect_success(compare({grey, other}));
-    EXPECT_TRUE(told().at("identical").get<bool>()) << other;
+    EXPECT_TRUE(json_of().at("identical").get<bool>()) << other;
   }
   Image glass = ramp(4, 1.0f);
   glass.data[3] = 0.5f;
@@ -93,10 +93,10 @@ TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
   const auto run = compare({dim, black, "--min-psnr", "30"});
   EXPECT_EQ(run.code, 0) << "far above the limit, and yet nothing: " << run.err;
   EXPECT_NE(run.err.find("black.png is all black"), std::string::npos) << run.err;
-  EXPECT_EQ(told().at("all_black"), black);
+  EXPECT_EQ(json_of().at("all_black"), black);
   EXPECT_EQ(compare({black, black}).err.find("all black"), std::string::npos);
   EXPECT_EQ(compare({dim, dim}).err.find("all black"), std::string::npos);
-  EXPECT_TRUE(told().at("all_black").is_null());
+  EXPECT_TRUE(json_of().at("all_black").is_null());
   // Alpha is no light.
   Image veil(16, 16, 4);
   for (std::size_t at = 3; at < veil.data.size(); at += 4) veil.data[at] = 1.0f;
@@ -132,10 +132,10 @@ TEST_F(ComparePictures, AnErrorThatNobodySeesIsSaid) {
   const auto hidden = compare({foreign("a.png", a), foreign("b.png", b)});
   EXPECT_EQ(hidden.code, 0) << hidden.err;
   EXPECT_NE(hidden.err.find("alpha is 0 in both"), std::string::npos) << hidden.err;
-  EXPECT_EQ(told().at("worst_is_hidden"), true);
+  EXPECT_EQ(json_of().at("worst_is_hidden"), true);
   b.data[3] = 1.0f;
   EXPECT_EQ(compare({folder_ / "a.png", foreign("b.png", b)}).err.find("alpha is 0"), std::string::npos);
-  EXPECT_EQ(told().at("worst_is_hidden"), false);
+  EXPECT_EQ(json_of().at("worst_is_hidden"), false);
 }
 
 TEST_F(ComparePictures, GreyWithAlphaIsRgbWithAlpha) {
@@ -148,7 +148,7 @@ TEST_F(ComparePictures, GreyWithAlphaIsRgbWithAlpha) {
   const auto four = foreign("four.png", grey), two = folder_ / "two.png";
   ASSERT_EQ(run_words({"oiiotool", four, "--ch", "R,A", "--chnames", "Y,A", "-d", "uint8", "-o", two}).code, 0);
   expect_success(compare({undeclared(two), foreign("three.png", rgb)}));
-  EXPECT_TRUE(told().at("identical").get<bool>());
+  EXPECT_TRUE(json_of().at("identical").get<bool>());
 }
 
 }  // namespace

@@ -55,11 +55,11 @@ TEST(ConfigDiff, TellsEveryKeyThatDiffersAndNoOther) {
   std::size_t differ = 0;
   for (const auto& key : cmodel::config_keys()) {
     if (base.*key.member == wide.*key.member) continue;
-    ASSERT_LT(differ, json.at("differences").size()) << key.name << " is not told";
-    const auto& told = json.at("differences").at(differ++);
-    EXPECT_EQ(told.at("key"), key.name);
-    EXPECT_EQ(told.at("a"), base.*key.member);
-    EXPECT_EQ(told.at("b"), wide.*key.member);
+    ASSERT_LT(differ, json.at("differences").size()) << key.name << " is not listed";
+    const auto& listed_key = json.at("differences").at(differ++);
+    EXPECT_EQ(listed_key.at("key"), key.name);
+    EXPECT_EQ(listed_key.at("a"), base.*key.member);
+    EXPECT_EQ(listed_key.at("b"), wide.*key.member);
   }
   EXPECT_EQ(differ, json.at("differences").size());
   std::printf("[figure] keys in which base and wide differ = %zu (limit > 0)\n", differ);

@@ -66,14 +66,14 @@ TEST(Cycles, AreThoseOfVerifyUnderTheSamePatterns) {
   int compared = 0;
   for (const auto& [input, ready] :
        {std::pair{"always", "always"}, {"random-70", "burst-9"}, {"alternate-5", "every-3"}}) {
-    const auto told_by = [&](const std::string& subcommand) {
+    const auto result_of = [&](const std::string& subcommand) {
       const auto run = fastsplat({subcommand, "--volume", "shells:16", "--size", "40", "--config", "tiny", "--input",
                                   input, "--ready", ready, "--seed", "5", "--json", "-"});
       expect_success(run);
       return json::parse(run.out);
     };
-    const auto cycles = told_by("cycles")["cycles"]["actual"].get<std::uint64_t>();
-    EXPECT_EQ(cycles, told_by("verify")["cycles_rtl"].get<std::uint64_t>()) << input << ' ' << ready;
+    const auto cycles = result_of("cycles")["cycles"]["actual"].get<std::uint64_t>();
+    EXPECT_EQ(cycles, result_of("verify")["cycles_rtl"].get<std::uint64_t>()) << input << ' ' << ready;
     EXPECT_GT(cycles, 500U);
     ++compared;
   }

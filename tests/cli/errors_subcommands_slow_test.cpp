@@ -36,7 +36,7 @@ TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
     EXPECT_EQ(values, site.at("values").get<std::uint64_t>()) << site.at("site");
     ++sites;
   }
-  std::printf("[figure] sites told = %d (limit >= 9)\n", sites);
+  std::printf("[figure] sites listed = %d (limit >= 9)\n", sites);
   EXPECT_GE(sites, 9);
 }
 

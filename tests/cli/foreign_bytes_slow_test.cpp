@@ -14,12 +14,12 @@ const std::string kName = "caf\xe9";            // Latin-1
 const std::string kAsUtf8 = "caf\xef\xbf\xbd";  // what JSON can say of it
 
 /// The run's JSON, once from a file and once from stdout; `--json` and `--quiet` are added here.
-nlohmann::json told(const TempFolder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--json", folder / "told.json"});
+nlohmann::json result_of(const TempFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--json", folder / "result.json"});
   const auto run = fastsplat(arguments);
   EXPECT_EQ(run.code, 0) << arguments[0] << ": " << run.err;
   EXPECT_EQ(run.err.find("internal"), std::string::npos) << run.err;
-  return nlohmann::json::parse(read_bytes(folder / "told.json"), nullptr, false);
+  return nlohmann::json::parse(read_bytes(folder / "result.json"), nullptr, false);
 }
 
 TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
@@ -40,7 +40,7 @@ TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
   int said = 0;
   for (const auto& command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
-    const auto json = told(folder, command);
+    const auto json = result_of(folder, command);
     EXPECT_FALSE(json.is_discarded()) << "no JSON";
     said += json.dump().find(kAsUtf8) != std::string::npos ? 1 : 0;
   }
@@ -54,7 +54,7 @@ TEST(ForeignBytes, WhatAPictureCarriesComesThroughCompare) {
   for (const std::string ending : {".exr", ".tif", ".png"}) {
     SCOPED_TRACE(ending);
     images::write_image(folder / ("a" + ending), image, {{"scene", kName}});
-    const auto json = told(folder, {"compare", folder / ("a" + ending), folder / ("a" + ending)});
+    const auto json = result_of(folder, {"compare", folder / ("a" + ending), folder / ("a" + ending)});
     EXPECT_FALSE(json.is_discarded()) << "no JSON";
   }
 }

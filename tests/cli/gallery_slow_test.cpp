@@ -107,7 +107,7 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
     const auto then = origin_of(kRoot / "docs" / pictures[i]);
     // A scene of Gaussians is told in fewer lines, for its view is one of them.
     const bool gaussians = command.find("--gaussians") != std::string::npos;
-    EXPECT_GT(then.size(), gaussians ? 6u : 10u) << pictures[i] << " does not tell its origin";
+    EXPECT_GT(then.size(), gaussians ? 6u : 10u) << pictures[i] << " does not state its origin";
     for (const auto& line : then) {
       if (line.starts_with("version")) continue;  // a release changes no picture
       EXPECT_NE(std::find(now.begin(), now.end(), line), now.end())

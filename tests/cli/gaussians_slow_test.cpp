@@ -75,10 +75,10 @@ TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
   drawn("plain", "", {});
   drawn("up", "", {"--up", "z"});
   EXPECT_EQ(drawn("hinted", "comment Vertical Axis: z\n", {})["up"], "z");
-  drawn("told", "comment Vertical Axis: z\n", {"--up", "-y"});
+  drawn("declared", "comment Vertical Axis: z\n", {"--up", "-y"});
   EXPECT_FALSE(same("plain.exr", "up.exr"));
   EXPECT_TRUE(same("hinted.exr", "up.exr"));
-  EXPECT_TRUE(same("told.exr", "plain.exr"));
+  EXPECT_TRUE(same("declared.exr", "plain.exr"));
   EXPECT_EQ(drawn("mip", "comment SplatRenderMode: mip\n", {})["antialiased"], true);
   EXPECT_FALSE(same("mip.exr", "plain.exr"));
   // The same numbers, shown otherwise.

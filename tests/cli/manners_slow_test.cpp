@@ -20,9 +20,9 @@ using Words = std::vector<std::string>;
 bool has(const std::string& program) { return run_words({"sh", "-c", "command -v " + program}).code == 0; }
 
 std::string script(const TempFolder& folder, const std::string& shell) {
-  const auto told = fastsplat({"completion", shell});
-  expect_success(told);
-  return folder.write("fastsplat." + shell, told.out);
+  const auto printed = fastsplat({"completion", shell});
+  expect_success(printed);
+  return folder.write("fastsplat." + shell, printed.out);
 }
 
 /// What bash offers at the end of each line.
@@ -193,11 +193,11 @@ TEST(Manual, IsReadWithoutAWarning) {
 }
 
 TEST(Manual, APageAsItIsPrinted) {
-  const auto told = fastsplat({"help", "--man", "stream", "record"});
-  expect_success(told);
+  const auto printed = fastsplat({"help", "--man", "stream", "record"});
+  expect_success(printed);
   for (const char* part :
        {".TH \"FASTSPLAT\\-STREAM\\-RECORD\" 1", "\\fB\\-\\-out\\fR", "(required)", ".SS \"Camera\""})
-    EXPECT_NE(told.out.find(part), std::string::npos) << part;
+    EXPECT_NE(printed.out.find(part), std::string::npos) << part;
   expect_error(fastsplat({"help", "--man", "redner"}), 2, {"did you mean 'render'"});
   expect_error(fastsplat({"help", "--man-pages", "/nonexistent"}), 3, {"/nonexistent"});
   for (const Words& command : {Words{"help", "--markdown", "render"}, Words{"help", "--markdown", "--man"},

@@ -108,9 +108,9 @@ TEST(Names, DoctorAsksProgramsAndDoesNotWaitForThem) {
   program("yosys", "echo 'Yosys 9.81+7 (git sha1 1234)'");
   Surroundings here;
   here.environment = {"PATH=" + folder.path().string() + ":/usr/bin:/bin"};
-  const auto told = fastsplat({"doctor", "--json", "-"}, here);
-  expect_success(told);
-  const auto programs = nlohmann::json::parse(told.out).at("programs");
+  const auto doctor = fastsplat({"doctor", "--json", "-"}, here);
+  expect_success(doctor);
+  const auto programs = nlohmann::json::parse(doctor.out).at("programs");
   EXPECT_NE(programs.at("ffmpeg").at("problem").get<std::string>().find("within 5 s"), std::string::npos);
   EXPECT_EQ(programs.at("ffmpeg").at("path"), folder / "ffmpeg");
   EXPECT_TRUE(programs.at("parallel").contains("problem"));

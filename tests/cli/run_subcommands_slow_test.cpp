@@ -129,14 +129,14 @@ TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
 
 TEST(RunVerbs, TheScriptHasThoseThatItLists) {
   const Tree tree;
-  std::set<std::string> told, had;
-  for (const auto& [subcommand, line] : listed(tree)) told.insert(subcommand);
+  std::set<std::string> shown, had;
+  for (const auto& [subcommand, line] : listed(tree)) shown.insert(subcommand);
   const std::string script = read_bytes(tree / "run");
   const std::string doors = script.substr(script.rfind("\ncase $verb in\n"));
   static const std::regex door(R"(\n  ([a-z]+)\))");
   for (auto at = std::sregex_iterator(doors.begin(), doors.end(), door); at != std::sregex_iterator(); ++at)
     had.insert((*at)[1]);
-  EXPECT_EQ(told, had);
+  EXPECT_EQ(shown, had);
 }
 
 TEST(RunVerbs, HelpBehindOtherArgumentsIsHelp) {

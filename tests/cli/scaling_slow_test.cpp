@@ -22,7 +22,7 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-json told(const Words& words) {
+json result_of(const Words& words) {
   const auto run = fastsplat(Words{"cycles"} + words + Words{"--json", "-"});
   expect_success(run);
   return json::parse(run.out);
@@ -50,7 +50,7 @@ TEST(Scaling, OneDeviceWithoutLimitIsThePlainCommand) {
       for (const Words& patterns : {Words{}, Words{"--input", "random-70", "--ready", "burst-9"},
                                     Words{"--input", "alternate-5", "--ready", "every-3"}}) {
         const Words words = scene + patterns + Words{"--config", config};
-        const auto plain = told(words), one = told(words + Words{"--devices", "1"});
+        const auto plain = result_of(words), one = result_of(words + Words{"--devices", "1"});
         EXPECT_EQ(plain["cycles"], one["cycles"]) << config;
         for (const auto* key : {"tiles", "sheets", "splats", "windows", "dirty_blocks"})
           EXPECT_EQ(plain[key], one[key]);
@@ -68,8 +68,8 @@ TEST(Scaling, ARecordedStreamIsItsScene) {
   const TempFolder folder;
   expect_success(fastsplat(Words{"stream", "record"} + kScene + Words{"-o", folder / "s.fss"}));
   const Words flags{"--devices", "3", "--bytes-per-cycle", "20"};
-  const auto scene = told(kScene + flags);
-  const auto stream = told(Words{"--stream", folder / "s.fss"} + Words(kScene.begin() + 4, kScene.end()) + flags);
+  const auto scene = result_of(kScene + flags);
+  const auto stream = result_of(Words{"--stream", folder / "s.fss"} + Words(kScene.begin() + 4, kScene.end()) + flags);
   // The stream's only further record, end_frame, comes while a picture goes out.
   for (const auto* key : {"frame_cycles", "shares", "each", "limit"})
     EXPECT_EQ(scene["scaling"][key], stream["scaling"][key]);
@@ -79,7 +79,7 @@ TEST(Scaling, ARecordedStreamIsItsScene) {
 
   const Words late{"--stream", folder / "s.fss", "--config", "small",     "--set",   "tile.width=32",
                    "--set",    "tile.height=32", "--input",  "random-30", "--ready", "burst-9"};
-  EXPECT_EQ(told(late)["cycles"], told(late + Words{"--devices", "1"})["cycles"]);
+  EXPECT_EQ(result_of(late)["cycles"], result_of(late + Words{"--devices", "1"})["cycles"]);
 }
 
 TEST(Scaling, FiguresAgreeWithEachOther) {
@@ -87,8 +87,8 @@ TEST(Scaling, FiguresAgreeWithEachOther) {
   std::map<std::string, std::uint64_t> one_device;
   for (const int devices : {1, 2, 4, 8}) {
     for (const std::string bytes : {"0", "6", "48"}) {
-      const auto all =
-          told(kScene + Words{"--devices", std::to_string(devices), "--bytes-per-cycle", bytes, "--clock", "156.25"});
+      const auto all = result_of(
+          kScene + Words{"--devices", std::to_string(devices), "--bytes-per-cycle", bytes, "--clock", "156.25"});
       const auto& scaling = all["scaling"];
       const auto frame = number(scaling["frame_cycles"]);
       if (devices == 1) one_device[bytes] = frame;
@@ -124,12 +124,12 @@ TEST(Scaling, SeveralNumbersAreEachByItself) {
   int alike = 0;
   for (const std::string list : {"1,2,4,8", "3,5"}) {
     const Words flags{"--bytes-per-cycle", "40", "--clock", "200", "--devices"};
-    const auto all = told(kScene + flags + Words{list});
+    const auto all = result_of(kScene + flags + Words{list});
     std::istringstream numbers(list);
     json last;
     std::size_t at = 0;
     for (std::string number; std::getline(numbers, number, ','); ++at) {
-      last = told(kScene + flags + Words{number});
+      last = result_of(kScene + flags + Words{number});
       EXPECT_EQ(all["by_devices"][at], last["scaling"]) << number;
       EXPECT_FALSE(last.contains("by_devices"));
       ++alike;
@@ -150,7 +150,7 @@ TEST(Scaling, SeveralNumbersAreEachByItself) {
 /// What is built to be the limit is named, with what would help.
 TEST(Scaling, NamesTheLimit) {
   const auto expect_limit = [](const Words& words, const std::string& name, const std::string& said) {
-    const auto limit = told(words)["scaling"]["limit"];
+    const auto limit = result_of(words)["scaling"]["limit"];
     EXPECT_EQ(limit["name"], name) << limit;
     EXPECT_NE(limit["help"].get<std::string>().find(said), std::string::npos) << limit;
   };
@@ -167,7 +167,7 @@ TEST(Scaling, NamesTheLimit) {
                "table loading");
   expect_limit(Words{"--volume", "shells:64", "--size", "128", "--config", "base", "--devices", "1"}, "work",
                "are busy");
-  const auto roofline = told(kScene + Words{"--bytes-per-cycle", "1"})["scaling"]["roofline"];
+  const auto roofline = result_of(kScene + Words{"--bytes-per-cycle", "1"})["scaling"]["roofline"];
   EXPECT_EQ(roofline["ruling"], "stream");
 }
 

@@ -49,7 +49,7 @@ Words libraries_of(const Words& arguments, const std::string& trace) {
       if (at != std::string::npos) names.push_back(fs::path(line.substr(at + 14)).filename());
     }
   }
-  EXPECT_FALSE(names.empty()) << "the loader told nothing: nothing was checked";
+  EXPECT_FALSE(names.empty()) << "the loader printed nothing: nothing was checked";
   return names;
 }
 
@@ -138,14 +138,15 @@ TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
   copied.expect_refused(copied.render_for_minutes(), {kModule, "missing", "/lib/fastsplat/", "./run build"});
   // What else is wrong with a command is reported first: the library costs a quarter of a second.
   const std::string raw = copied / "a.exr";
-  const std::vector<Words> wrong{{"render", "--volume", "shells:8", "--size", "0", "-o", raw},
-                                 {"render", "--volume", "shells:8", "--config", "none", "--engine", "cmodel", "-o", raw},
-                                 {"render", "--volume", "shells:8", "--orbit", "0", "--frames", "2", "-o", raw},
-                                 {"render", "--gaussians", "shells:8", "--size", "0", "-o", raw},
-                                 {"errors", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
-                                 {"errors", "bound", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
-                                 {"stream", "replay", raw, "--config", "none", "-o", raw},
-                                 {"compare", raw, raw, "--max-lsb", "-1"}};
+  const std::vector<Words> wrong{
+      {"render", "--volume", "shells:8", "--size", "0", "-o", raw},
+      {"render", "--volume", "shells:8", "--config", "none", "--engine", "cmodel", "-o", raw},
+      {"render", "--volume", "shells:8", "--orbit", "0", "--frames", "2", "-o", raw},
+      {"render", "--gaussians", "shells:8", "--size", "0", "-o", raw},
+      {"errors", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
+      {"errors", "bound", "--volume", "shells:8", "--size", "0", "--maps", copied / "m"},
+      {"stream", "replay", raw, "--config", "none", "-o", raw},
+      {"compare", raw, raw, "--max-lsb", "-1"}};
   for (auto words : wrong) {
     words.insert(words.begin(), copied.bin("fastsplat"));
     EXPECT_EQ(run_words(words).code, 2) << words[1] << ' ' << words[2];
@@ -154,9 +155,9 @@ TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
   const auto compared = run_words({copied.bin("fastsplat"), "compare", "a.exr", "b.exr"});
   EXPECT_EQ(compared.code, 3) << compared.err;
   expect_success(run_words({copied.bin("fastsplat"), "volume", "info", "shells:8"}));
-  const auto told = run_words({copied.bin("fastsplat"), "doctor", "--json", "-"});
-  expect_success(told);
-  EXPECT_NE(nlohmann::json::parse(told.out)["missing"].dump().find(kModule), std::string::npos) << told.out;
+  const auto doctor = run_words({copied.bin("fastsplat"), "doctor", "--json", "-"});
+  expect_success(doctor);
+  EXPECT_NE(nlohmann::json::parse(doctor.out)["missing"].dump().find(kModule), std::string::npos) << doctor.out;
 }
 
 TEST(StartUp, TheModuleIsFoundBesideTheProgramOrInItsLib) {

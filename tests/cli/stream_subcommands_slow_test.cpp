@@ -72,12 +72,12 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
       {whole.substr(0, whole.size() - cmodel::kBeatBytes), "end_frame"},
       {whole.substr(0, whole.size() - 7), cut_beat.c_str()},
       {whole + std::string(cmodel::kBeatBytes, '\0'), "opcode"}};
-  for (const auto& [bytes, told] : damages) {
+  for (const auto& [bytes, message] : damages) {
     const auto run = fastsplat({"stream", "dump", folder_.write("d.fss", bytes), "--json", folder_ / "d.json"});
-    EXPECT_EQ(run.code, 3) << told;
+    EXPECT_EQ(run.code, 3) << message;
     EXPECT_NE(run.err.find("d.fss: beat "), std::string::npos) << run.err;
-    EXPECT_NE(run.err.find(told), std::string::npos) << run.err;
-    EXPECT_NE(run.out.find("begin_tile"), std::string::npos) << "nothing of it is told";
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find("begin_tile"), std::string::npos) << "nothing of it is printed";
     const auto json = nlohmann::json::parse(read_bytes(folder_ / "d.json"));
     EXPECT_GT(json.at("records").size(), 10u);
     EXPECT_TRUE(json.contains("error"));
@@ -105,7 +105,7 @@ TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
       ++refused;
     }
   }
-  std::printf("[figure] times told that it is no stream = %d\n", refused);
+  std::printf("[figure] times refused as not a stream = %d\n", refused);
 }
 
 TEST_F(StreamVerbs, VerifyNamesTheFile) {

@@ -21,7 +21,7 @@ class VerifyComforts : public ::testing::Test {
     arguments.insert(arguments.begin(), "verify");
     return fastsplat(arguments, here_);
   }
-  nlohmann::json told(const std::string& name = "told.json") const {
+  nlohmann::json json_of(const std::string& name = "result.json") const {
     return nlohmann::json::parse(read_bytes(folder_ / name));
   }
   /// A line of the program's, run as it stands.
@@ -38,14 +38,15 @@ class VerifyComforts : public ::testing::Test {
 };
 
 TEST_F(VerifyComforts, APlantedFaultIsToldInEveryFace) {
-  const auto run = verify({"--random", "1000", "--fault", "FORWARD_3", "--json", "told.json", "--junit", "told.xml"});
+  const auto run =
+      verify({"--random", "1000", "--fault", "FORWARD_3", "--json", "result.json", "--junit", "result.xml"});
   ASSERT_EQ(run.code, 1) << run.err;
   EXPECT_NE(run.out.find("planted fault FORWARD_3 (in the RTL): sheet bank: no forwarding over two windows"),
             std::string::npos)
       << run.out;
   EXPECT_NE(run.out.find("\nfirst divergence: stage sheet"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("\nshrunk from "), std::string::npos) << run.out;
-  const auto json = told();
+  const auto json = json_of();
   EXPECT_EQ(json.at("planted_fault").at("name"), "FORWARD_3");
   EXPECT_EQ(json.at("verdict"), "mismatch");
   EXPECT_LE(json.at("failure").at("splats_after").get<int>(), 4);
@@ -55,23 +56,23 @@ TEST_F(VerifyComforts, APlantedFaultIsToldInEveryFace) {
   const auto instance = json.at("failure").at("instance").get<std::string>();
   EXPECT_LT(view.find("-look at " + instance + "\n@"), view.find("-beats in\n@")) << view;
   EXPECT_TRUE(std::regex_search(view, std::regex("\n\\*-4\\.0 [0-9]+\n"))) << view;
-  const auto junit = read_bytes(folder_ / "told.xml");
+  const auto junit = read_bytes(folder_ / "result.xml");
   EXPECT_NE(junit.find("<failure message=\"planted fault FORWARD_3 ("), std::string::npos) << junit;
   EXPECT_NE(junit.find(" seed 1 mixed\""), std::string::npos) << junit;
   // The replay plants it again.
   const auto replayed = again(json.at("failure").at("replay"), {"--json", "again.json"});
   EXPECT_EQ(replayed.code, 1) << replayed.err;
-  EXPECT_EQ(told("again.json").at("planted_fault").at("name"), "FORWARD_3");
+  EXPECT_EQ(json_of("again.json").at("planted_fault").at("name"), "FORWARD_3");
 }
 
 TEST_F(VerifyComforts, AFaultThatNothingShowsIsNoPass) {
   // Memories that a reset does not wipe, where they are empty at power-up and nothing resets again.
   const auto run = verify({"--random", "60", "--class", "hazards", "--fill", "zero", "--fault", "MISSED_WIPE", "--json",
-                           "told.json", "--junit", "told.xml"});
+                           "result.json", "--junit", "result.xml"});
   ASSERT_EQ(run.code, 1) << run.out << run.err;
-  EXPECT_EQ(told().at("verdict"), "fault not seen");
-  EXPECT_EQ(told().at("mismatches"), 0);
-  const auto junit = read_bytes(folder_ / "told.xml");
+  EXPECT_EQ(json_of().at("verdict"), "fault not seen");
+  EXPECT_EQ(json_of().at("mismatches"), 0);
+  const auto junit = read_bytes(folder_ / "result.xml");
   EXPECT_NE(junit.find("failures=\"1\""), std::string::npos) << junit;
   EXPECT_NE(junit.find("planted fault MISSED_WIPE"), std::string::npos) << junit;
   const auto quiet =
@@ -84,10 +85,10 @@ TEST_F(VerifyComforts, AFaultAtThePortsIsSeenInAScene) {
   // It lies in the middle of its tile: block 1 is never composited.
   for (const char* fault : {"PORT_LOST", "PORT_COMPOSITE"}) {
     const auto run = verify(
-        {"--volume", "shells:12", "--size", "24x24", "--config", "tiny", "--fault", fault, "--json", "told.json"});
+        {"--volume", "shells:12", "--size", "24x24", "--config", "tiny", "--fault", fault, "--json", "result.json"});
     EXPECT_EQ(run.code, 1) << fault << run.err;
-    EXPECT_EQ(told().at("verdict"), "mismatch") << fault;
-    EXPECT_GT(told().at("mismatches"), 0) << fault;
+    EXPECT_EQ(json_of().at("verdict"), "mismatch") << fault;
+    EXPECT_GT(json_of().at("mismatches"), 0) << fault;
   }
 }
 
@@ -121,13 +122,13 @@ TEST_F(VerifyComforts, AWaveformHoldsTheCyclesThatWereAskedFor) {
         {"verify", "--volume", "shells:8", "--size", "24", "--config", "tiny"},
         {"render", "--volume", "shells:8", "--size", "24", "--config", "tiny", "--engine", "rtl"}}) {
     auto arguments = what;
-    for (const char* word : {"--wave", "run.fst", "--cycles", "100..150", "--json", "told.json"})
+    for (const char* word : {"--wave", "run.fst", "--cycles", "100..150", "--json", "result.json"})
       arguments.emplace_back(word);
     const auto run = fastsplat(arguments, here_);
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_NE(run.out.find("waveform: run.fst (cycles 100 to 150)"), std::string::npos) << run.out;
-    EXPECT_EQ(told().at("wave").at("from"), 100);
-    EXPECT_EQ(told().at("wave").at("to"), 150);
+    EXPECT_EQ(json_of().at("wave").at("from"), 100);
+    EXPECT_EQ(json_of().at("wave").at("to"), 150);
     ASSERT_GT(std::filesystem::file_size(folder_ / "run.fst"), 500u);
     const auto view = read_bytes(folder_ / "run.gtkw");
     for (const char* line : {"[dumpfile] \"run.fst\"\n", "-beats in\n", "fastsplat_dut.s_tdata_i[255:0]\n",
@@ -158,18 +159,18 @@ TEST_F(VerifyComforts, WaveformsThatCannotBeAreRefused) {
   expect_error(fastsplat({"render", "--volume", "shells:8", "--wave", "a.fst"}), 2,
                {"--wave", "golden", "--engine rtl"});
   // Behind the run's end: the result is told, the waveform is not there.
-  const auto late = with({"--wave", "a.fst", "--cycles", "1000000..1000001", "--json", "told.json"});
+  const auto late = with({"--wave", "a.fst", "--cycles", "1000000..1000001", "--json", "result.json"});
   EXPECT_EQ(late.code, 2);
   EXPECT_NE(late.err.find("the run ends before these cycles"), std::string::npos) << late.err;
-  EXPECT_EQ(told().at("verdict"), "pass");
+  EXPECT_EQ(json_of().at("verdict"), "pass");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.fst"));
 }
 
 TEST_F(VerifyComforts, AllMismatchesGoOnToTheEnd) {
   const auto run = verify({"--random", "400", "--seeds", "2", "--fault", "PORT_SHEET", "--config", "tiny",
-                           "--all-mismatches", "5", "--json", "told.json"});
+                           "--all-mismatches", "5", "--json", "result.json"});
   ASSERT_EQ(run.code, 1) << run.err;
-  const auto json = told();
+  const auto json = json_of();
   EXPECT_EQ(json.at("streams"), 36);
   EXPECT_EQ(json.at("all_mismatches").size(), 5u);
   const auto& row = json.at("all_mismatches").at(0);
@@ -191,18 +192,18 @@ TEST_F(VerifyComforts, AllMismatchesGoOnToTheEnd) {
 TEST_F(VerifyComforts, ASavedStreamReplaysAlike) {
   for (const std::string stimulus : {"mixed", "reset"}) {
     const auto run = verify({"--random", "300", "--class", stimulus, "--seed", "5", "--config", "tiny", "--save-stream",
-                             "random.fss", "--coverage", stimulus + "-a.json", "--json", "told.json"});
+                             "random.fss", "--coverage", stimulus + "-a.json", "--json", "result.json"});
     ASSERT_EQ(run.code, 0) << run.err;
-    const auto first = told();
+    const auto first = json_of();
     const auto replay =
         again(first.at("saved").at(0).at("replay"), {"--coverage", stimulus + "-b.json", "--json", "again.json"});
     ASSERT_EQ(replay.code, 0) << replay.err;
-    const auto second = told("again.json");
+    const auto second = json_of("again.json");
     for (const char* same : {"comparisons", "splats", "windows", "cycles_rtl", "cycles_model", "by_tap", "config_hash"})
       EXPECT_EQ(first.at(same), second.at(same)) << same;
     EXPECT_GT(first.at("splats"), 100);
-    const auto random = told(stimulus + "-a.json").at("campaigns").at(stimulus),
-               stream = told(stimulus + "-b.json").at("campaigns").at("stream");
+    const auto random = json_of(stimulus + "-a.json").at("campaigns").at(stimulus),
+               stream = json_of(stimulus + "-b.json").at("campaigns").at("stream");
     std::printf("[figure] bins of %s = %zu\n", stimulus.c_str(), random.size());
     EXPECT_GT(random.size(), 100u);
     EXPECT_EQ(random, stream);
@@ -242,7 +243,7 @@ TEST_F(VerifyComforts, InterruptedItLeavesNothingHalf) {
   here_.signal = SIGINT;
   here_.when = [](pid_t process) { return handles_signal(process, SIGINT); };
   const auto run = verify({"--random", "100000", "--seeds", "100", "--jobs", "2", "--config", "tiny", "--save-stream",
-                           "s-####.fss", "--json", "told.json", "--junit", "told.xml"});
+                           "s-####.fss", "--json", "result.json", "--junit", "result.xml"});
   EXPECT_EQ(run.code, 130) << run.err;
   EXPECT_EQ(folder_.entries(), std::vector<std::string>{});
 }

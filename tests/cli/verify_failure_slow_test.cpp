@@ -21,16 +21,16 @@ Result verify(const std::vector<std::string>& arguments, const Surroundings& sur
 class VerifyFailure : public ::testing::Test {
  protected:
   void SetUp() override { here_.folder = folder_.path(); }
-  nlohmann::json told() const { return nlohmann::json::parse(read_bytes(folder_ / "told.json")); }
+  nlohmann::json json_of() const { return nlohmann::json::parse(read_bytes(folder_ / "result.json")); }
 
   TempFolder folder_;
   Surroundings here_;
 };
 
 TEST_F(VerifyFailure, IsShrunkAndReplayed) {
-  const auto run = verify({"--random", "300", "--json", "told.json"}, here_);
+  const auto run = verify({"--random", "300", "--json", "result.json"}, here_);
   ASSERT_EQ(run.code, 1) << run.err;
-  const auto failure = told().at("failure");
+  const auto failure = json_of().at("failure");
   EXPECT_EQ(failure.at("splats_after"), 7) << "the seventh is the first that is wrong";
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fss"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fst"));
@@ -50,9 +50,9 @@ TEST_F(VerifyFailure, IsShrunkAndReplayed) {
 // The pixel that is named lies in the tile, and is that of the operands below.
 TEST_F(VerifyFailure, NamesThePixelAndNotTheWindow) {
   for (const std::string stimulus : {"screen-edges", "mixed", "multi-window"}) {
-    const auto run = verify({"--random", "300", "--class", stimulus, "--json", "told.json"}, here_);
+    const auto run = verify({"--random", "300", "--class", stimulus, "--json", "result.json"}, here_);
     ASSERT_EQ(run.code, 1) << run.err;
-    const auto failure = told().at("failure");
+    const auto failure = json_of().at("failure");
     const std::string smallest = failure.at("smallest"), operands = failure.at("operands");
     const auto at = smallest.find(", pixel ");
     ASSERT_NE(at, std::string::npos) << smallest;
@@ -64,12 +64,12 @@ TEST_F(VerifyFailure, NamesThePixelAndNotTheWindow) {
 }
 
 TEST_F(VerifyFailure, OfASceneCountsWhatRan) {
-  const auto run = verify({"--volume", "shells:16", "--size", "48", "--json", "told.json"}, here_);
+  const auto run = verify({"--volume", "shells:16", "--size", "48", "--json", "result.json"}, here_);
   ASSERT_EQ(run.code, 1) << run.err;
   std::printf("[figure] splats of the scene before it was stopped = %llu\n",
-              static_cast<unsigned long long>(told().at("splats").get<std::uint64_t>()));
-  EXPECT_GT(told().at("splats"), 10);
-  EXPECT_GT(told().at("windows"), 10);
+              static_cast<unsigned long long>(json_of().at("splats").get<std::uint64_t>()));
+  EXPECT_GT(json_of().at("splats"), 10);
+  EXPECT_GT(json_of().at("windows"), 10);
 }
 
 TEST_F(VerifyFailure, IsToldBeforeItsFiles) {

@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 class VerifyFiles : public ::testing::Test {
  protected:
   void SetUp() override { here_.folder = folder_.path(); }
-  nlohmann::json told(const std::string& name) const { return nlohmann::json::parse(read_bytes(folder_ / name)); }
+  nlohmann::json json_of(const std::string& name) const { return nlohmann::json::parse(read_bytes(folder_ / name)); }
 
   TempFolder folder_;
   Surroundings here_;
@@ -41,12 +41,12 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
   const Words seeds{"1", "2", "3", "4", "5", "6"};
   std::vector<std::thread> runs;
   for (const auto& seed : seeds)
-    runs.emplace_back([&, seed] { fastsplat(failing(seed, {"--json", "told-" + seed + ".json"}), here_); });
+    runs.emplace_back([&, seed] { fastsplat(failing(seed, {"--json", "result-" + seed + ".json"}), here_); });
   for (auto& run : runs) run.join();
   std::set<std::string> streams;
   std::size_t alike = 0;
   for (const auto& seed : seeds) {
-    const auto failure = told("told-" + seed + ".json").at("failure");
+    const auto failure = json_of("result-" + seed + ".json").at("failure");
     streams.insert(failure.at("stream"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / failure.at("waveform").get<std::string>()));
     // The line that was printed, run: it fails as the run did that printed it.
@@ -55,7 +55,7 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
     words.erase(words.begin());
     words.insert(words.end(), {"--json", "again.json", "--failure", "again"});
     EXPECT_EQ(fastsplat(words, here_).code, 1);
-    alike += told("again.json").at("failure").at("first") == failure.at("smallest") ? 1 : 0;
+    alike += json_of("again.json").at("failure").at("first") == failure.at("smallest") ? 1 : 0;
   }
   std::printf("[figure] streams = %zu, replay lines that are true = %zu (expected %zu)\n", streams.size(), alike,
               seeds.size());
@@ -67,10 +67,10 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
 }
 
 TEST_F(VerifyFiles, DoNotTakeANameOfTheSameCommand) {
-  const auto run = fastsplat(failing("1", {"--wave", "verify-failure.fst", "--json", "told.json"}), here_);
+  const auto run = fastsplat(failing("1", {"--wave", "verify-failure.fst", "--json", "result.json"}), here_);
   EXPECT_EQ(run.code, 1) << run.err;
-  EXPECT_EQ(told("told.json").at("failure").at("waveform"), "verify-failure-2.fst");
-  EXPECT_EQ(told("told.json").at("wave").at("file"), "verify-failure.fst");
+  EXPECT_EQ(json_of("result.json").at("failure").at("waveform"), "verify-failure-2.fst");
+  EXPECT_EQ(json_of("result.json").at("wave").at("file"), "verify-failure.fst");
 }
 
 // /proc takes no file of anybody's.
@@ -98,10 +98,10 @@ TEST_F(VerifyFiles, ThatCannotBeLeaveTheVerdict) {
 
 TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
   const auto run =
-      fastsplat(failing("1", {"--junit", "/dev/full", "--json", "told.json", "--save-stream", "run.fss"}), here_);
+      fastsplat(failing("1", {"--junit", "/dev/full", "--json", "result.json", "--save-stream", "run.fss"}), here_);
   EXPECT_EQ(run.code, 1) << run.err;
   EXPECT_NE(run.err.find("warning: /dev/full: cannot write"), std::string::npos) << run.err;
-  EXPECT_EQ(told("told.json").at("verdict"), "mismatch");
+  EXPECT_EQ(json_of("result.json").at("verdict"), "mismatch");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "run.fss"));
 
   here_.largest_file = 6000;  // the JSON has two thousand, the stream eight
@@ -110,8 +110,8 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
   EXPECT_EQ(small.code, 1) << small.err;
   EXPECT_NE(small.err.find("warning: small.fss: cannot write"), std::string::npos) << small.err;
   EXPECT_NE(read_bytes(folder_ / "small.xml").find("failures=\"1\""), std::string::npos);
-  EXPECT_FALSE(told("small.json").contains("saved"));
-  EXPECT_NE(told("small.json").at("unwritten").at(0).get<std::string>().find("small.fss"), std::string::npos);
+  EXPECT_FALSE(json_of("small.json").contains("saved"));
+  EXPECT_NE(json_of("small.json").at("unwritten").at(0).get<std::string>().find("small.fss"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "small.fss"));
 }
 
@@ -122,17 +122,17 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
   first.push_back("first.json");
   ASSERT_EQ(fastsplat(first, here_).code, 0);
   std::uintmax_t largest = 0;
-  const auto before = told("first.json");
+  const auto before = json_of("first.json");
   for (const auto& saved : before.at("saved")) {
     const auto file = folder_.path() / saved.at("stream").get<std::string>();
     largest = std::max(largest, std::filesystem::file_size(file));
     std::filesystem::remove(file);
   }
   here_.largest_file = largest - 1;
-  words.insert(words.end(), {"told.json", "--junit", "told.xml", "--coverage", "covered.json"});
+  words.insert(words.end(), {"result.json", "--junit", "result.xml", "--coverage", "covered.json"});
   const auto run = fastsplat(words, here_);
   EXPECT_EQ(run.code, 3) << run.err;
-  const auto result = told("told.json");
+  const auto result = json_of("result.json");
   const auto saved = result.value("saved", nlohmann::json::array()).size();
   const auto streams = result.at("streams").get<std::size_t>();
   EXPECT_GT(saved, 0u);
@@ -146,7 +146,7 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
   EXPECT_EQ(result.at("unwritten").size(), 2u) << "coverage and a stream";
   for (const auto& why : result.at("unwritten"))
     EXPECT_NE(run.err.find("error: " + why.get<std::string>()), std::string::npos) << run.err;
-  EXPECT_NE(read_bytes(folder_ / "told.xml").find("failures=\"0\""), std::string::npos);
+  EXPECT_NE(read_bytes(folder_ / "result.xml").find("failures=\"0\""), std::string::npos);
 }
 
 TEST_F(VerifyFiles, AreNamedOnStderrByAQuietRun) {
@@ -169,13 +169,13 @@ TEST_F(VerifyFiles, MismatchesThatAreNotCountedToTheEndSaySo) {
              all = verify({"--json", "all.json", "--all-mismatches", "1"});
   // The run stops with a cycle, which may have several.
   EXPECT_NE(stopped.out.find(" mismatches, stopped there"), std::string::npos) << stopped.out;
-  EXPECT_GE(told("stopped.json").at("mismatches"), 1000);
-  EXPECT_LT(told("stopped.json").at("mismatches"), 1010);
-  EXPECT_EQ(told("stopped.json").at("stopped"), true);
-  const std::uint64_t number = told("all.json").at("mismatches");
+  EXPECT_GE(json_of("stopped.json").at("mismatches"), 1000);
+  EXPECT_LT(json_of("stopped.json").at("mismatches"), 1010);
+  EXPECT_EQ(json_of("stopped.json").at("stopped"), true);
+  const std::uint64_t number = json_of("all.json").at("mismatches");
   std::printf("[figure] mismatches to the end = %llu (limit > 1000)\n", static_cast<unsigned long long>(number));
   EXPECT_GT(number, 1000u);
-  EXPECT_EQ(told("all.json").at("stopped"), false);
+  EXPECT_EQ(json_of("all.json").at("stopped"), false);
   EXPECT_EQ(all.out.find("stopped there"), std::string::npos) << all.out;
 }
 

@@ -334,12 +334,12 @@ TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
         Wrong{"array.lanes", "12", "a power of two", "12"}, Wrong{"rounding.light", "1", "trn, rnd or rnd_conv", "1"},
         Wrong{"rounding.light", "RND", "trn, rnd or rnd_conv", "RND"}}) {
     cmodel::Config config = named_config("base");
-    const auto told = cmodel::set(config, wrong.key, wrong.value);
-    ASSERT_TRUE(told) << wrong.key << " = " << wrong.value << " is taken";
-    EXPECT_EQ(told->where, wrong.key);
-    EXPECT_EQ(told->expected, wrong.expected) << wrong.key;
-    EXPECT_EQ(told->got, wrong.got) << wrong.key;
-    EXPECT_FALSE(told->fix.empty()) << wrong.key;
+    const auto violation = cmodel::set(config, wrong.key, wrong.value);
+    ASSERT_TRUE(violation) << wrong.key << " = " << wrong.value << " is taken";
+    EXPECT_EQ(violation->where, wrong.key);
+    EXPECT_EQ(violation->expected, wrong.expected) << wrong.key;
+    EXPECT_EQ(violation->got, wrong.got) << wrong.key;
+    EXPECT_FALSE(violation->fix.empty()) << wrong.key;
     EXPECT_EQ(config, named_config("base")) << wrong.key << " has changed it";
   }
 }

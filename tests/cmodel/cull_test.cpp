@@ -104,7 +104,7 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
       EXPECT_EQ(one->counters.tiles, off.counters.tiles);
       EXPECT_EQ(one->counters.sheets, off.counters.sheets);
       EXPECT_EQ(one->counters.cull_blocks, off.counters.cull_blocks);
-      EXPECT_EQ(one->counters.splats + one->culls.swallowed, off.counters.splats);
+      EXPECT_EQ(one->counters.splats + one->culls.dropped, off.counters.splats);
       EXPECT_EQ(one->counters.composite_saturated, off.counters.composite_saturated);
       EXPECT_EQ(one->counters.pixel_saturated, off.counters.pixel_saturated);
       EXPECT_LE(one->counters.windows, off.counters.windows);
@@ -113,23 +113,23 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
       windows_less += off.counters.windows - one->counters.windows;
     }
     // Cells are coarser in blocks: they hide less.
-    EXPECT_GE(pixel.culls.hidden_splats + pixel.culls.swallowed, block.culls.hidden_splats + block.culls.swallowed);
+    EXPECT_GE(pixel.culls.hidden_splats + pixel.culls.dropped, block.culls.hidden_splats + block.culls.dropped);
     tiles += off.counters.tiles;
     splats += 2 * off.counters.splats;
   }
   std::printf(
       "[figure] tiles = %llu, splats = %llu, sets tested = %llu, hidden = %llu, splats tested = %llu, hidden = %llu, "
-      "swallowed = %llu, windows hidden = %llu, windows less = %llu\n",
+      "dropped = %llu, windows hidden = %llu, windows less = %llu\n",
       static_cast<unsigned long long>(tiles), static_cast<unsigned long long>(splats),
       static_cast<unsigned long long>(culls.set_tests), static_cast<unsigned long long>(culls.hidden_sets),
       static_cast<unsigned long long>(culls.splat_tests), static_cast<unsigned long long>(culls.hidden_splats),
-      static_cast<unsigned long long>(culls.swallowed), static_cast<unsigned long long>(culls.hidden_windows),
+      static_cast<unsigned long long>(culls.dropped), static_cast<unsigned long long>(culls.hidden_windows),
       static_cast<unsigned long long>(windows_less));
   EXPECT_GT(culls.hidden_sets, 100U);
   EXPECT_LT(culls.hidden_sets, culls.set_tests);
   EXPECT_GT(culls.hidden_splats, 1000U);
   EXPECT_LT(culls.hidden_splats, culls.splat_tests);
-  EXPECT_GT(culls.swallowed, 100U);
+  EXPECT_GT(culls.dropped, 100U);
   EXPECT_GT(culls.hidden_windows, 100U);
 }
 
@@ -272,7 +272,7 @@ std::string refusal(const cmodel::Config& config, const Writing& before,
 }
 
 /// A cull_block before splat `at`.
-Writing promise(int at, std::uint32_t tag, int x, int y, int width, int height, std::uint32_t splats) {
+Writing announced(int at, std::uint32_t tag, int x, int y, int width, int height, std::uint32_t splats) {
   return [=](StreamWriter& w, int splat) {
     if (splat == at) w.cull_block(tag, x, y, width, height, splats);
   };
@@ -297,32 +297,32 @@ TEST(CullingRule, PromisesAreChecked) {
   const int y = 5 - lanes / 2;
   EXPECT_EQ(refusal(config, [](StreamWriter&, int) {}), "");
   // Of the first splat's windows, what lies left of the tile need not be promised (S-cull-7).
-  EXPECT_EQ(refusal(config, promise(0, 0, 0, y, 8 + first + lanes, lanes, 3)), "");
-  EXPECT_EQ(refusal(config, promise(1, 1, 4 + first, y, 4 + lanes, lanes, 2)), "");
-  EXPECT_EQ(refusal(config, promise(3, 3, 0, 0, 1, 1, 0)), "");
-  std::set<std::string> told;
+  EXPECT_EQ(refusal(config, announced(0, 0, 0, y, 8 + first + lanes, lanes, 3)), "");
+  EXPECT_EQ(refusal(config, announced(1, 1, 4 + first, y, 4 + lanes, lanes, 2)), "");
+  EXPECT_EQ(refusal(config, announced(3, 3, 0, 0, 1, 1, 0)), "");
+  std::set<std::string> texts;
   const auto refused = [&](const Writing& writing, const std::string& words) {
     const std::string text = refusal(config, writing);
     EXPECT_NE(text.find(words), std::string::npos) << text;
     std::printf("[figure] %s\n", text.c_str());
-    told.insert(text);
+    texts.insert(text);
   };
-  refused(promise(0, 0, 0, y, 7 + first + lanes, lanes, 3), "outside the rectangle of cull_block 0");
-  refused(promise(1, 1, 5 + first, y, 9 + lanes, lanes, 2), "outside the rectangle");
-  refused(promise(0, 0, 0, y + 1, 30, lanes, 1), "outside the rectangle");
-  refused(promise(0, 0, 0, y, 30, lanes - 1, 1), "outside the rectangle");
+  refused(announced(0, 0, 0, y, 7 + first + lanes, lanes, 3), "outside the rectangle of cull_block 0");
+  refused(announced(1, 1, 5 + first, y, 9 + lanes, lanes, 2), "outside the rectangle");
+  refused(announced(0, 0, 0, y + 1, 30, lanes, 1), "outside the rectangle");
+  refused(announced(0, 0, 0, y, 30, lanes - 1, 1), "outside the rectangle");
   // S-cull-4, S-cull-8, S-cull-6.
-  refused(promise(0, 1, 0, 0, 30, 30, 3), "tag");
-  refused(promise(1, 1, 0, 0, 30, 30, 3), "end_sheet before all splats of cull_block");
+  refused(announced(0, 1, 0, 0, 30, 30, 3), "tag");
+  refused(announced(1, 1, 0, 0, 30, 30, 3), "end_sheet before all splats of cull_block");
   refused(too_many_sets(config), "too many open cull_blocks");
   // S-cull-5.
-  refused(promise(0, 0, 0, 0, 1, 1, kMostToCome), "outside the rectangle");
-  refused(promise(0, 0, 0, 0, 1, 1, kMostToCome + 1), "too many open splats");
-  refused(promise(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "too many open splats");
+  refused(announced(0, 0, 0, 0, 1, 1, kMostToCome), "outside the rectangle");
+  refused(announced(0, 0, 0, 0, 1, 1, kMostToCome + 1), "too many open splats");
+  refused(announced(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "too many open splats");
   refused(twice_the_most, "too many open splats");
-  EXPECT_EQ(told.size(), 11U);
+  EXPECT_EQ(texts.size(), 11U);
   // Without the key it is a hint (S-cull-2).
-  EXPECT_EQ(refusal(culling(config, CullMap::Off), promise(0, 77, 0, 0, 1, 1, 99)), "");
+  EXPECT_EQ(refusal(culling(config, CullMap::Off), announced(0, 77, 0, 0, 1, 1, 99)), "");
 }
 
 // S-cull-11: the tag, the block's own w5 and the rectangle; neither the number of cull_blocks nor the sum of their w5.
@@ -330,14 +330,14 @@ TEST(CullingRule, PromisesAreChecked) {
 TEST(CullingRule, TheReaderOfASubsetChecksThreeThings) {
   const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
   int refused = 0, taken = 0;
-  for (const auto& [writing, words] : {std::pair{promise(0, 1, 0, 0, 30, 30, 3), "tag"},
-                                       {promise(0, 0, 0, 0, 30, 30, kMostToCome + 1), "too many open splats"},
-                                       {promise(0, 0, 0, 0, 1, 1, 3), "outside the rectangle"}}) {
+  for (const auto& [writing, words] : {std::pair{announced(0, 1, 0, 0, 30, 30, 3), "tag"},
+                                       {announced(0, 0, 0, 0, 30, 30, kMostToCome + 1), "too many open splats"},
+                                       {announced(0, 0, 0, 0, 1, 1, 3), "outside the rectangle"}}) {
     const std::string text = refusal(config, writing, cmodel::StreamScope::Subset);
     EXPECT_NE(text.find(words), std::string::npos) << words << ": " << text;
     ++refused;
   }
-  for (const Writing& writing : {promise(0, 0, 0, 0, 30, 30, kMostToCome), promise(1, 1, 0, 0, 30, 30, 3),
+  for (const Writing& writing : {announced(0, 0, 0, 0, 30, 30, kMostToCome), announced(1, 1, 0, 0, 30, 30, 3),
                                  too_many_sets(config), Writing{twice_the_most}}) {
     EXPECT_NE(refusal(config, writing), "") << "a whole stream may not";
     EXPECT_EQ(refusal(config, writing, cmodel::StreamScope::Subset), "");

@@ -45,7 +45,7 @@ TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
       model.consume(beats);
       model.finish();
       EXPECT_EQ(model.account().pixels, pictures);
-      EXPECT_EQ(model.account().output, 0u) << "the sink is always willing";
+      EXPECT_EQ(model.account().output, 0u) << "the sink is always ready";
       EXPECT_EQ(model.account().total(), model.stalls().busy);  // M-account-2
       EXPECT_EQ(counted.of(cmodel::Tap::Snap), model.counters().splats);
       EXPECT_EQ(counted.of(cmodel::Tap::Footprint), model.counters().windows);

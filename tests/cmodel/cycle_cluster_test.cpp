@@ -237,7 +237,7 @@ TEST(Cluster, SharesAreAllCyclesAndNoFrameIsBelowTheRoofline) {
       }
     }
   }
-  std::printf("[figure] frames told apart = %d, the stream ruled in %llu\n", frames,
+  std::printf("[figure] frames that differ = %d, the stream ruled in %llu\n", frames,
               static_cast<unsigned long long>(stream_rules));
   EXPECT_EQ(frames, 60);
   EXPECT_GT(stream_rules, 0U);

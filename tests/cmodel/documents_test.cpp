@@ -145,14 +145,14 @@ TEST(StreamPage, RulesByNumber) {
       rows.push_back(cells(line));
   }
   std::size_t at = 0;
-#define X(name, number, register_name, meaning)                                                     \
-  if (cmodel::StreamRule::name != cmodel::StreamRule::None) {                                       \
-    ASSERT_LT(at, rows.size());                                                                     \
-    EXPECT_EQ(rows[at][0], std::to_string(number));                                                 \
-    EXPECT_EQ(rows[at][1], lower(#register_name));                                                  \
-    EXPECT_EQ(rows[at][2], meaning);                                                                \
-    EXPECT_EQ(rows[at][3].find("device") == 0, cmodel::judged_by_device(cmodel::StreamRule::name)); \
-    ++at;                                                                                           \
+#define X(name, number, register_name, meaning)                                                      \
+  if (cmodel::StreamRule::name != cmodel::StreamRule::None) {                                        \
+    ASSERT_LT(at, rows.size());                                                                      \
+    EXPECT_EQ(rows[at][0], std::to_string(number));                                                  \
+    EXPECT_EQ(rows[at][1], lower(#register_name));                                                   \
+    EXPECT_EQ(rows[at][2], meaning);                                                                 \
+    EXPECT_EQ(rows[at][3].find("device") == 0, cmodel::checked_by_device(cmodel::StreamRule::name)); \
+    ++at;                                                                                            \
   }
   FASTSPLAT_STREAM_RULES(X)
 #undef X

@@ -61,7 +61,7 @@ void flip(Bytes& bytes, std::size_t beat, std::size_t word, std::uint32_t bits) 
 }
 
 /// The rule that the model says is broken.
-StreamRule told(const cmodel::Config& config, const Bytes& bytes, std::uint64_t* beat = nullptr) {
+StreamRule broken_rule(const cmodel::Config& config, const Bytes& bytes, std::uint64_t* beat = nullptr) {
   Collector collector;
   cmodel::Model model(config, cmodel::StreamScope::Whole, collector, nullptr);
   try {
@@ -137,7 +137,7 @@ TEST(EllipseRules, EachBrokenOnceIsRefusedUnderItsNumber) {
     broken.bytes(bytes);
     seal(bytes);
     std::uint64_t beat = 0;
-    EXPECT_EQ(told(ellipse_config(), bytes, &beat), broken.rule) << broken.name;
+    EXPECT_EQ(broken_rule(ellipse_config(), bytes, &beat), broken.rule) << broken.name;
     EXPECT_EQ(beat, kEllipseBeat) << broken.name;
     const Verdict model = model_verdict(ellipse_config(), bytes);
     EXPECT_FALSE(model.parts.what.empty() || model.parts.expected.empty() || model.parts.got.empty())
@@ -156,26 +156,26 @@ TEST(EllipseRules, WhereItMayStandAndWhatCountsIt) {
   // Where the configuration has none, its opcode is unknown (N-4.6-1, S-ellipse-1).
   const cmodel::Config none = ellipse_config(0);
   std::uint64_t beat = 0;
-  EXPECT_EQ(told(none, with_ellipse(none, sound()), &beat), StreamRule::Opcode);
+  EXPECT_EQ(broken_rule(none, with_ellipse(none, sound()), &beat), StreamRule::Opcode);
   EXPECT_EQ(beat, kEllipseBeat);
   EXPECT_EQ(disagreement(none, with_ellipse(none, sound())), "");
   // Outside a sheet.
   Bytes bytes = with_ellipse(config, sound());
   bytes.erase(bytes.begin() + 6 * cmodel::kBeatBytes, bytes.begin() + 7 * cmodel::kBeatBytes);
   seal(bytes);
-  EXPECT_EQ(told(config, bytes, &beat), StreamRule::Order);
+  EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::Order);
   EXPECT_EQ(beat, 6U);
   EXPECT_EQ(disagreement(config, bytes), "");
   // end_sheet counts both (S-ellipse-2).
   bytes = with_ellipse(config, sound());
   flip(bytes, 9, 2, 2 ^ 1);
   seal(bytes);
-  EXPECT_EQ(told(config, bytes, &beat), StreamRule::EndCount);
+  EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::EndCount);
   EXPECT_EQ(beat, 9U);
   EXPECT_EQ(disagreement(config, bytes), "");
   // The hash has the key.
   bytes = with_ellipse(ellipse_config(4), sound());
-  EXPECT_EQ(told(config, bytes, &beat), StreamRule::Configuration);
+  EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::Configuration);
 }
 
 TEST(EllipseRules, EverySingleBitCountsAsTheOracleSays) {
@@ -235,9 +235,11 @@ TEST(EllipseRules, BothSidesOfEveryEdge) {
     field.set(e, bad);
     const char* part = oracle::broken_shape(symbols, e);
     ASSERT_NE(part, nullptr);
-    EXPECT_EQ(told(config, with_ellipse(config, e)), StreamRule::Shape) << part << ", " << field.name << " = " << bad;
+    EXPECT_EQ(broken_rule(config, with_ellipse(config, e)), StreamRule::Shape)
+        << part << ", " << field.name << " = " << bad;
     field.set(e, good);
-    EXPECT_EQ(told(config, with_ellipse(config, e)), StreamRule::None) << part << ", " << field.name << " = " << good;
+    EXPECT_EQ(broken_rule(config, with_ellipse(config, e)), StreamRule::None)
+        << part << ", " << field.name << " = " << good;
     ++edges[part];
   }
   for (const auto& [part, count] : edges) std::printf("[figure] edges met of '%s' = %d\n", part.c_str(), count);

@@ -41,7 +41,7 @@ class PlainDevice {
   /// Nothing is queued or on the link.
   bool all_taken() const { return taken_places_ == 0; }
   bool at_rest(std::uint64_t cycle) const {
-    return all_taken() && !weighed_ && !judged_ && !beat_ && !tile_open_ && cycle >= picture_end_;
+    return all_taken() && !weighed_ && !result_ && !beat_ && !tile_open_ && cycle >= picture_end_;
   }
 
   void clock(std::uint64_t cycle) {
@@ -57,13 +57,13 @@ class PlainDevice {
     // M-decode-1, M-decode-3); the source's beat follows (M-check-2), from the end of the wipe on (M-reset-5).
     const bool done = beat_ && carry_out(cycle);
     if (done) beat_.reset();
-    if (!beat_ && judged_) {
-      beat_ = judged_;
+    if (!beat_ && result_) {
+      beat_ = result_;
       spent_ = 0;
-      judged_.reset();
+      result_.reset();
     }
-    if (!judged_ && weighed_) {
-      judged_ = weighed_;
+    if (!result_ && weighed_) {
+      result_ = weighed_;
       weighed_.reset();
     }
     if (cycle < wipe_ || weighed_ || queue_.empty()) return;
@@ -114,7 +114,7 @@ class PlainDevice {
   std::uint64_t wipe_, walk_, slices_;
   std::size_t places_, taken_places_ = 0;
   std::deque<PlainBeat> queue_;
-  std::optional<PlainBeat> weighed_, judged_, beat_;  ///< in the two registers of check, in decode
+  std::optional<PlainBeat> weighed_, result_, beat_;  ///< in the two registers of check, in decode
   std::uint64_t spent_ = 0;
   bool tile_open_ = false;
   std::size_t buffer_ = 0;

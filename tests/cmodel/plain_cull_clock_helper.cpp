@@ -180,7 +180,7 @@ class Clock {
     for (; done_ < sent; ++c_) {
       if (held_[kDecode] < 0 && (open_ || c_ < picture_to_)) ++out_.starved;
       write_tables();
-      tell_verdicts();
+      report_verdicts();
       advance(decode());
       source();
     }
@@ -218,7 +218,7 @@ class Clock {
     }
   }
   /// The first cycle in t3 (M-cull-4).
-  void tell_verdicts() {
+  void report_verdicts() {
     if (holds(kT3, Opcode::CullBlock)) verdict_.try_emplace(item(held_[kT3]).set, c_);
   }
 

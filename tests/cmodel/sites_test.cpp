@@ -123,13 +123,13 @@ TEST(Ranges, OfRandomFramesAgreeWithTheCountersAndChangeNothing) {
     const cmodel::Counters& counters = watched.counters();
     ASSERT_EQ(counters, plain.counters());
 
-    cmodel::Counters told;
+    cmodel::Counters counted;
     for (std::size_t i = 0; i < cmodel::kSiteCount; ++i) {
       const cmodel::Range& range = ranges.at(static_cast<Site>(i));
       const cmodel::Narrowing site = cmodel::narrowing(config, static_cast<Site>(i));
       values += range.count;
       overflows += range.overflow;
-      if (const auto counts = cmodel::kSiteFacts[i].counts) told.*counts += range.overflow;
+      if (const auto counts = cmodel::kSiteFacts[i].counts) counted.*counts += range.overflow;
       EXPECT_TRUE(cmodel::kSiteFacts[i].counts != nullptr || range.overflow == 0) << cmodel::kSiteFacts[i].name;
       if (range.count == 0) continue;
       EXPECT_LE(range.least, range.greatest);
@@ -139,12 +139,12 @@ TEST(Ranges, OfRandomFramesAgreeWithTheCountersAndChangeNothing) {
       EXPECT_EQ(site(range.greatest).overflow || site(range.least).overflow, range.overflow > 0);
       dropping += range.inexact > 0 ? 1 : 0;
     }
-    EXPECT_EQ(told.snap_saturated, counters.snap_saturated);
-    EXPECT_EQ(told.product_saturated, counters.product_saturated);
-    EXPECT_EQ(told.sheet_saturated, counters.sheet_saturated);
-    EXPECT_EQ(told.opacity_saturated, counters.opacity_saturated);
-    EXPECT_EQ(told.composite_saturated, counters.composite_saturated);
-    EXPECT_EQ(told.pixel_saturated, counters.pixel_saturated);
+    EXPECT_EQ(counted.snap_saturated, counters.snap_saturated);
+    EXPECT_EQ(counted.product_saturated, counters.product_saturated);
+    EXPECT_EQ(counted.sheet_saturated, counters.sheet_saturated);
+    EXPECT_EQ(counted.opacity_saturated, counters.opacity_saturated);
+    EXPECT_EQ(counted.composite_saturated, counters.composite_saturated);
+    EXPECT_EQ(counted.pixel_saturated, counters.pixel_saturated);
     EXPECT_EQ(seen(ranges, {Site::Snap}), 2 * counters.splats);
     EXPECT_EQ(seen(ranges, {Site::Product}), 4 * counters.lanes_weighted);
     // What is composited at once is summed by nobody.

@@ -9,7 +9,7 @@
 namespace fastsplat::test {
 namespace {
 
-struct Told {
+struct Refused {
   const char* name;
   std::size_t beat, word;
   std::uint32_t value;
@@ -21,7 +21,7 @@ struct Told {
 constexpr const char* kWriter = "correct the program that wrote the stream";
 constexpr const char* kDamaged = "damaged or truncated";
 
-const Told kTold[] = {
+const Refused kRefused[] = {
     {"image width", 0, 4, 8U << 16, "at least 1", "0", kWriter},
     {"magic", 0, 1, 0x32535346, "0x31535346", "0x32535346", ".fss"},
     {"configuration", 0, 2, 0, "(small_stream)", "", "configuration it was recorded with"},
@@ -52,19 +52,19 @@ std::vector<std::uint8_t> with(std::size_t beat, std::size_t word, std::uint32_t
 }
 
 TEST(StreamMessages, SayWhatWouldHaveBeenRight) {
-  for (const Told& told : kTold) {
-    const Verdict verdict = model_verdict(small_stream_config(), with(told.beat, told.word, told.value));
-    ASSERT_TRUE(verdict.refused_at) << told.name;
-    EXPECT_EQ(*verdict.refused_at, told.beat) << told.name << ": " << verdict.text;
-    if (told.expected[0] == '(') {
-      EXPECT_NE(verdict.parts.expected.find(told.expected), std::string::npos) << verdict.text;
+  for (const Refused& refused : kRefused) {
+    const Verdict verdict = model_verdict(small_stream_config(), with(refused.beat, refused.word, refused.value));
+    ASSERT_TRUE(verdict.refused_at) << refused.name;
+    EXPECT_EQ(*verdict.refused_at, refused.beat) << refused.name << ": " << verdict.text;
+    if (refused.expected[0] == '(') {
+      EXPECT_NE(verdict.parts.expected.find(refused.expected), std::string::npos) << verdict.text;
     } else {
-      EXPECT_EQ(verdict.parts.expected, told.expected) << told.name << ": " << verdict.text;
-      EXPECT_EQ(verdict.parts.got, told.got) << told.name << ": " << verdict.text;
+      EXPECT_EQ(verdict.parts.expected, refused.expected) << refused.name << ": " << verdict.text;
+      EXPECT_EQ(verdict.parts.got, refused.got) << refused.name << ": " << verdict.text;
     }
-    EXPECT_NE(verdict.parts.fix.find(told.advice), std::string::npos) << told.name << ": " << verdict.text;
+    EXPECT_NE(verdict.parts.fix.find(refused.advice), std::string::npos) << refused.name << ": " << verdict.text;
   }
-  std::printf("[figure] messages held = %zu\n", std::size(kTold));
+  std::printf("[figure] messages held = %zu\n", std::size(kRefused));
 }
 
 // The limit that is named is the one that holds: one less, and it is the table's words that are too few.

@@ -16,7 +16,7 @@ std::optional<std::uint64_t> beat_of(const std::string& where) {
   return beat;
 }
 
-std::string told(const Verdict& verdict) {
+std::string text_of(const Verdict& verdict) {
   return verdict.refused_at ? "refuses beat " + std::to_string(*verdict.refused_at) + " (" + verdict.text + ")"
                             : "takes it";
 }
@@ -48,7 +48,7 @@ std::string disagreement(const cmodel::Config& config, std::span<const std::uint
   oracle::Rendering got, want;
   const Verdict model = model_verdict(config, bytes, &got), expected = oracle_verdict(config, bytes, &want);
   if (taken != nullptr) *taken = !model.refused_at.has_value();
-  if (model.refused_at != expected.refused_at) return "model " + told(model) + ", oracle " + told(expected);
+  if (model.refused_at != expected.refused_at) return "model " + text_of(model) + ", oracle " + text_of(expected);
   if (model.refused_at) return model.code == ExitCode::Input ? "" : "refused, but not as bad input: " + model.text;
   return compare(got, want).first;
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kLatency = 40;  ///< cycles of a memory
 
 /// The rows of docs/culling.md's tables: cycles in millions.
-void tell(const std::string& name, const std::vector<CullRow>& rows) {
+void print(const std::string& name, const std::vector<CullRow>& rows) {
   const auto millions = [](std::uint64_t cycles) { return static_cast<double>(cycles) / 1e6; };
   const auto fewer = [&](const CullRow& row) {
     return static_cast<double>(rows[0].cycles) / static_cast<double>(row.cycles);
@@ -43,7 +43,7 @@ TEST(CulledHead, IsTheSamePictureInFewerCycles) {
   for (const int size : {256, 512}) {
     const auto scene = scene::build_scene(view_of("ch2bet", size, "mri-head"), volume);
     const auto rows = compare_culling(scene, load_config("base"), kLatency, 0);
-    tell("head, " + std::to_string(size), rows);
+    print("head, " + std::to_string(size), rows);
     EXPECT_GT(static_cast<double>(rows[0].cycles), (size == 512 ? 2.5 : 2.4) * static_cast<double>(rows[2].cycles));
   }
 }
@@ -80,7 +80,7 @@ TEST_P(CulledScenes, TakeFewerCyclesOrHardlyMore) {
   description.opacity_scale = goal.opacity_scale;
   description.camera.zoom = goal.zoom;
   const auto rows = compare_culling(scene::build_scene(description), load_config("base"), kLatency, 0);
-  tell(goal.name, rows);
+  print(goal.name, rows);
   ASSERT_EQ(rows.size(), 5U);
   const auto off = static_cast<double>(rows[0].cycles);
   for (const CullRow& row : rows) {

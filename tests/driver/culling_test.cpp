@@ -57,7 +57,7 @@ std::vector<Named> scenes() {
 
 // N-8-81: the records of hidden sets are left out.
 TEST(CulledFrames, AreTheFramesWithout) {
-  std::uint64_t sets = 0, swallowed = 0, hidden = 0;
+  std::uint64_t sets = 0, dropped = 0, hidden = 0;
   for (const auto& [name, description] : scenes()) {
     const auto scene = scene::build_scene(description);
     for (const char* device : {"base", "tiny"}) {
@@ -79,21 +79,21 @@ TEST(CulledFrames, AreTheFramesWithout) {
         EXPECT_EQ(whole.frame.words, off.frame.words) << name << ", " << device;
         EXPECT_EQ(whole.counters, skipped.counters) << name << ", " << device;
         EXPECT_EQ(whole.report.splat_records, off.report.splat_records) << name << ", " << device;
-        EXPECT_EQ(whole.counters.splats + counts.swallowed, off.counters.splats) << name << ", " << device;
-        EXPECT_EQ(skipped.report.splat_records, whole.report.splat_records - counts.swallowed);
+        EXPECT_EQ(whole.counters.splats + counts.dropped, off.counters.splats) << name << ", " << device;
+        EXPECT_EQ(skipped.report.splat_records, whole.report.splat_records - counts.dropped);
         EXPECT_EQ(off.counters.cull_blocks, 0U);
         if (name == "xray") {
           EXPECT_EQ(counts, cmodel::CullCounts{});
         }
-        sets += counts.hidden_sets, swallowed += counts.swallowed, hidden += counts.hidden_splats;
+        sets += counts.hidden_sets, dropped += counts.dropped, hidden += counts.hidden_splats;
       }
     }
   }
   figure("sets hidden", static_cast<double>(sets));
-  figure("splats swallowed", static_cast<double>(swallowed));
+  figure("splats dropped", static_cast<double>(dropped));
   figure("splats hidden one by one", static_cast<double>(hidden));
   EXPECT_GT(sets, 100U);
-  EXPECT_GT(swallowed, 10000U);
+  EXPECT_GT(dropped, 10000U);
   EXPECT_GT(hidden, 1000U);
 }
 
@@ -102,16 +102,16 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
   for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
     const cmodel::Config config = culling("small", map);
     const CompiledFrame compiled(scene, config);
-    std::size_t told = 0, tiles = 0;
+    std::size_t reported = 0, tiles = 0;
     const CullRun one = run_culls(compiled, 1, [&](std::size_t done, std::size_t all) {
-      EXPECT_EQ(done, ++told);
+      EXPECT_EQ(done, ++reported);
       tiles = all;
     });
     const CullRun three = run_culls(compiled, 3);
     // Tile by tile, to the last one; a device that does not cull has nothing to do.
-    figure("tiles told of", static_cast<double>(told));
-    EXPECT_EQ(told, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
-    EXPECT_EQ(told, tiles);
+    figure("tiles reported", static_cast<double>(reported));
+    EXPECT_EQ(reported, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
+    EXPECT_EQ(reported, tiles);
     cmodel::NullPixels nowhere;
     cmodel::CullLog log;
     cmodel::Model model(config, cmodel::StreamScope::Subset, nowhere);

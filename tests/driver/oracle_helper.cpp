@@ -110,7 +110,7 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, co
 }
 
 /// The beat as a record: its name and fields.
-std::string told(const Beat& beat) {
+std::string text_of(const Beat& beat) {
   const cmodel::RecordLayout* layout = cmodel::find_layout(beat[0] & 0xFF);
   if (layout == nullptr) return "no record";
   std::string text = layout->name;
@@ -137,7 +137,7 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
   for (std::size_t at = 0; at < expected.size(); ++at) {
     const Beat& beat = expected[at];
     const std::string where = "beat " + std::to_string(at) + ": ";
-    if (at >= got.size()) return where + "ends early, expected " + told(beat);
+    if (at >= got.size()) return where + "ends early, expected " + text_of(beat);
     if (payload > 0) {
       for (std::size_t i = 0; i < beat.size(); ++i, ++word)
         if (beat[i] != got[at][i])
@@ -147,10 +147,10 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
       continue;
     }
     if (beat != got[at])
-      return where + sheet + differing_field(beat, got[at]) + "\n  expected " + told(beat) + "\n  got      " +
-             told(got[at]);
+      return where + sheet + differing_field(beat, got[at]) + "\n  expected " + text_of(beat) + "\n  got      " +
+             text_of(got[at]);
     if ((beat[0] & 0xFF) == static_cast<std::uint32_t>(cmodel::Opcode::LoadTable)) {
-      table = told(beat);
+      table = text_of(beat);
       payload = cmodel::announced_beats(beat);
       word = 0;
     }
@@ -158,7 +158,7 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
       sheet = "sheet " + std::to_string(beat[1]) + ", ";
   }
   if (got.size() > expected.size())
-    return "beat " + std::to_string(expected.size()) + ": expected nothing more, got " + told(got[expected.size()]);
+    return "beat " + std::to_string(expected.size()) + ": expected nothing more, got " + text_of(got[expected.size()]);
   return "";
 }
 

@@ -161,7 +161,8 @@ TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
   std::ofstream(path_, std::ios::binary)
       .write(reinterpret_cast<const char*>(old.data()), static_cast<std::streamsize>(4 * old.size()));
   cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
-  const std::string told = "beat 0 (byte offset 0): stream version 1, this program reads version 2 (expected 2, got 1)";
+  const std::string message =
+      "beat 0 (byte offset 0): stream version 1, this program reads version 2 (expected 2, got 1)";
   int readers = 0;
   const std::function<void()> all[] = {[&] { replay_stream(path_, config); }, [&] { feed_stream(path_, cycles); },
                                        [&] { require_covered(path_); },
@@ -172,7 +173,7 @@ TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
       FAIL() << "accepted";
     } catch (const UserError& error) {
       EXPECT_EQ(error.code(), ExitCode::Input);
-      EXPECT_THAT(error.what(), ::testing::HasSubstr(path_.string() + ": " + told));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(path_.string() + ": " + message));
       EXPECT_THAT(error.what(), ::testing::HasSubstr("record it again"));
       ++readers;
     }
@@ -215,7 +216,7 @@ TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
 }
 
 // S-reader-3.
-TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
+TEST_F(StreamFile, a_dump_names_the_wrong_end) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
   const auto whole = read_beats(path_);
@@ -240,7 +241,7 @@ TEST_F(StreamFile, a_dump_tells_the_end_that_is_wrong) {
 }
 
 // The first beat in words: all that docs/stream.md has in it.
-TEST_F(StreamFile, a_dump_tells_what_begins_the_stream) {
+TEST_F(StreamFile, a_dump_prints_the_header_of_the_stream) {
   const auto config = load_config("tiny");
   auto description = view_of("shells:8", 40);
   description.height = 24;
@@ -256,7 +257,7 @@ TEST_F(StreamFile, a_dump_tells_what_begins_the_stream) {
 }
 
 // Of a short stream nothing is written before the file is closed: what fails then is told, too, and the old file stays.
-TEST_F(StreamFile, a_disk_that_fills_up_in_the_end_is_told) {
+TEST_F(StreamFile, a_disk_that_fills_up_at_the_end_is_reported) {
   const std::vector<cmodel::Beat> beats(10);  // 320 bytes
   driver::write_beats(path_, std::span(beats).first(1));
   rlimit before{};
@@ -264,12 +265,12 @@ TEST_F(StreamFile, a_disk_that_fills_up_in_the_end_is_told) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{.rlim_cur = 100, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string told = refusal([&] { driver::write_beats(path_, std::span(beats)); });
+  const std::string message = refusal([&] { driver::write_beats(path_, std::span(beats)); });
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   const auto left = std::filesystem::file_size(path_);
   figure("bytes of the file after a write that failed", static_cast<double>(left));
-  EXPECT_THAT(told, ::testing::HasSubstr("cannot write"));
+  EXPECT_THAT(message, ::testing::HasSubstr("cannot write"));
   EXPECT_EQ(left, 32U);
 }
 

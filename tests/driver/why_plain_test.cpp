@@ -60,7 +60,7 @@ TEST(WhyPlain, SaysWhichNumbersOfTheConfiguration) {
   culling.rounding_light = 1;
   culling.composite_frac_bits = 18;
   EXPECT_NE(shaped().find("too wide for the sample lanes"), std::string::npos) << shaped();
-  figure("reasons told", 6);
+  figure("reasons printed", 6);
 }
 
 }  // namespace

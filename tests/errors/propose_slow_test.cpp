@@ -112,7 +112,7 @@ TEST_F(Propose, MeetsTheTargetAndNoMoveMakesItCheaper) {
   std::printf(
       "[figure] base %.2f dB at cost %.0f -> %.2f dB at cost %.0f; %d keys one lower, nearest %.2f dB; %d frames\n",
       p.error_from->psnr_db(), p.cost_from.total(), reached, p.cost.total(), tried, nearest, p.simulated);
-  EXPECT_EQ(p.simulated, p.search.judged);
+  EXPECT_EQ(p.simulated, p.search.evaluated);
   const Moves moves = cheaper_moves(scenes_, p.search.best, 50.0);
   std::printf("[figure] moves of one key or two that are cheaper = %d, that meet the target = %d\n", moves.tried,
               moves.that_do);

@@ -119,11 +119,11 @@ TEST(Ranges, OfAFrameSaturateAsOftenAsTheDeviceCounts) {
         ASSERT_EQ(ranges.counters, rendered.counters) << config.name;
         EXPECT_EQ(ranges.report.vanished_voxels, rendered.report.vanished_voxels);
         EXPECT_EQ(ranges.report.splat_records, rendered.report.splat_records);
-        cmodel::Counters told;
+        cmodel::Counters sums;
         for (std::size_t i = 0; i < cmodel::kSiteCount; ++i) {
           const std::uint64_t overflow = ranges.ranges.at(static_cast<Site>(i)).overflow;
           if (const auto counts = cmodel::kSiteFacts[i].counts) {
-            told.*counts += overflow;
+            sums.*counts += overflow;
           } else {
             EXPECT_EQ(overflow, 0u) << cmodel::kSiteFacts[i].name;
           }
@@ -131,7 +131,7 @@ TEST(Ranges, OfAFrameSaturateAsOftenAsTheDeviceCounts) {
         }
         for (const auto& facts : cmodel::kSiteFacts) {
           if (facts.counts == nullptr) continue;
-          EXPECT_EQ(told.*facts.counts, rendered.counters.*facts.counts) << config.name << ", " << facts.name;
+          EXPECT_EQ(sums.*facts.counts, rendered.counters.*facts.counts) << config.name << ", " << facts.name;
           ++counted;
         }
         ++frames;
@@ -174,30 +174,30 @@ TEST(Ranges, FormatsToldSaturateNothingAndAreNotTooWide) {
       const auto narrow = driver::frame_ranges(scene, config);
       ASSERT_TRUE(cut(narrow.ranges)) << name;
       const auto wide = driver::frame_ranges(scene, roomy(config));
-      cmodel::Config told = config;
+      cmodel::Config widened = config;
       for (const Need& need : ranges_report(config, narrow.ranges, wide.ranges).needs) {
         const std::string key = need.key;
-        if (key == "sheet.int_bits") told.sheet_int_bits = need.needs;
-        if (key == "pixel.int_bits") told.pixel_int_bits = need.needs;
+        if (key == "sheet.int_bits") widened.sheet_int_bits = need.needs;
+        if (key == "pixel.int_bits") widened.pixel_int_bits = need.needs;
       }
       const auto saturated = [&](const cmodel::Config& c) {
         const auto counters = driver::render(scene, c).counters;
         return counters.product_saturated + counters.sheet_saturated + counters.pixel_saturated +
                (method == scene::Method::XRay ? counters.composite_saturated : 0);
       };
-      EXPECT_EQ(saturated(told), 0u) << name;
+      EXPECT_EQ(saturated(widened), 0u) << name;
       std::printf("[figure] %s, %s: sheet.int_bits 1 -> %d, pixel.int_bits 0 -> %d saturate nothing\n", name,
-                  scene::to_string(method), told.sheet_int_bits, told.pixel_int_bits);
-      if (told.sheet_int_bits > 1) {
-        cmodel::Config less = told;
+                  scene::to_string(method), widened.sheet_int_bits, widened.pixel_int_bits);
+      if (widened.sheet_int_bits > 1) {
+        cmodel::Config less = widened;
         --less.sheet_int_bits;
         EXPECT_GT(saturated(less), 0u) << name;
       }
       // Where sheets were cut, a slab's factor with room spans another range and is another: output words may then
       // differ by their last bit, and what they need is a bound.
       const bool bound = method != scene::Method::XRay && narrow.counters.sheet_saturated > 0;
-      if (told.pixel_int_bits > 0 && !bound) {
-        cmodel::Config less = told;
+      if (widened.pixel_int_bits > 0 && !bound) {
+        cmodel::Config less = widened;
         --less.pixel_int_bits;
         EXPECT_GT(saturated(less), 0u) << name;
       }

@@ -77,7 +77,7 @@ TEST(FetchedStream, IsTheModelsToo) {
       fetched.consume(sent);
       fetched.finish();
       EXPECT_EQ(different(seen.tiles, expected.picture.tiles, words), 0U) << name;
-      EXPECT_EQ(fetched.culls().swallowed, swallowed);  // of trusted sets (M-fetch-4)
+      EXPECT_EQ(fetched.culls().dropped, swallowed);  // of trusted sets (M-fetch-4)
       EXPECT_EQ(log, expected.log);
       left_out += expected.stream.beats.size() - sent.size();
     }

@@ -205,8 +205,8 @@ class Books final : public Occlusion {
       EXPECT_LE(picture[i].transmittance, before_[i].transmittance);
       const Run run = changed[i / width];
       const int x = static_cast<int>(i % width);
-      const bool told = x >= run.begin && x < run.end;
-      ASSERT_TRUE(told || picture[i].transmittance == before_[i].transmittance) << i;
+      const bool reported = x >= run.begin && x < run.end;
+      ASSERT_TRUE(reported || picture[i].transmittance == before_[i].transmittance) << i;
       changes += picture[i].transmittance != before_[i].transmittance;
       before_[i] = picture[i];
     }
@@ -231,7 +231,7 @@ TEST(FrameSweep, SplatsWhatOcclusionShowsAndTellsItWhatChanged) {
   EXPECT_EQ(all.sheets, slices(scene).sheets());
   EXPECT_EQ(all.pictures, all.sheets);
   EXPECT_EQ(all.shown, splats.size());
-  figure("pixels_changed_by_sheets", static_cast<double>(all.changes), "all of them told");
+  figure("pixels_changed_by_sheets", static_cast<double>(all.changes), "all of them reported");
   ASSERT_GT(all.changes, 10000u);
 
   Books half(scene, splats, true);

@@ -37,7 +37,8 @@ TEST(AssertionInVerify, IsASimulationFaultWithNameInstanceAndCycle) {
   EXPECT_EQ(result.verdict, testbench::Verdict::Simulation);
   EXPECT_EQ(static_cast<int>(testbench::exit_code(result.verdict)), 5);
   EXPECT_EQ(result.check.mismatches, 0u);
-  EXPECT_NE(result.error.find("assertion sheet_has_one_owner of the RTL failed in fastsplat_dut.u_top.u_core.u_splat.gen_owner"),
+  EXPECT_NE(result.error.find(
+                "assertion sheet_has_one_owner of the RTL failed in fastsplat_dut.u_top.u_core.u_splat.gen_owner"),
             std::string::npos);
   EXPECT_NE(result.error.find("(fastsplat_splat_array.sv:"), std::string::npos);
   EXPECT_EQ(result.error.find('\n'), std::string::npos);
@@ -82,15 +83,15 @@ TEST(AssertionOfADevice, IsToldWhenALaterDeviceIsGone) {
   cmodel::NullPixels pixels;
   const auto device = options.device(pixels, {});
   options.device(pixels, {}).reset();
-  std::string told;
+  std::string message;
   try {
     swaps(options.config)([&](std::span<const cmodel::Beat> beats) { device->consume(beats); });
     device->finish();
   } catch (const UserError& error) {
-    told = error.what();
+    message = error.what();
   }
-  std::printf("[figure] of a device older than one that is gone: %s\n", told.c_str());
-  EXPECT_NE(told.find("assertion sheet_has_one_owner of the RTL failed in "), std::string::npos) << told;
+  std::printf("[figure] of a device older than one that is gone: %s\n", message.c_str());
+  EXPECT_NE(message.find("assertion sheet_has_one_owner of the RTL failed in "), std::string::npos) << message;
 }
 
 }  // namespace

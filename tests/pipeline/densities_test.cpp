@@ -173,7 +173,7 @@ TEST(DensityChain, ThreadsChangeNothing) {
 TEST(DensityChain, StepsOfDensitiesAreToldOfDensitiesOnly) {
   const auto description = small_density_scenes().front();
   const cmodel::Config config = with_densities("base");
-  const auto told = [&](const scene::SceneDescription& of) {
+  const auto steps_listed = [&](const scene::SceneDescription& of) {
     const scene::Scene scene = scene::build_scene(of);
     std::size_t steps = 0;
     for (const StepSet& set : Chain(scene, config).sets()) steps += set.steps.size();
@@ -181,8 +181,8 @@ TEST(DensityChain, StepsOfDensitiesAreToldOfDensitiesOnly) {
   };
   auto colours = description;
   colours.classify = scene::ClassifyOrder::Pre;
-  EXPECT_EQ(told(description), kStepCount);
-  EXPECT_EQ(told(colours), kStepCount - 8);
+  EXPECT_EQ(steps_listed(description), kStepCount);
+  EXPECT_EQ(steps_listed(colours), kStepCount - 8);
   EXPECT_EQ(group_sets(true).size(), 6u);
   EXPECT_EQ(group_sets(false).size(), 5u);
 }

@@ -107,7 +107,7 @@ TEST(FileNames, NoFolderIsInAPage) {
       .pictures = {{.role = "other", .file = folder / "b.exr", .otherwise = "other", .wanted = true}}};
   const Report report = make_report(request);
   EXPECT_EQ(report.pictures, 2u);
-  EXPECT_NE(report.remarks.at(0).find(here), std::string::npos) << "the terminal's user is told where";
+  EXPECT_NE(report.remarks.at(0).find(here), std::string::npos) << "the terminal shows where";
   const std::string parent = std::filesystem::path(here).filename().string();
   std::size_t found = 0;
   for (auto at = report.html.find(parent); at != std::string::npos; at = report.html.find(parent, at + 1)) ++found;

@@ -44,9 +44,9 @@ class Results : public ::testing::Test {
 };
 
 TEST_F(Results, AFailedCompareNamesItsLimits) {
-  const Verdict told = verdict(kCompare);
-  EXPECT_EQ(told.status, Status::Fail);
-  EXPECT_EQ(told.sentence, "PSNR 41.25 dB (required: at least 48), worst error 7.5 LSB (required: at most 3)");
+  const Verdict verdict_got = verdict(kCompare);
+  EXPECT_EQ(verdict_got.status, Status::Fail);
+  EXPECT_EQ(verdict_got.sentence, "PSNR 41.25 dB (required: at least 48), worst error 7.5 LSB (required: at most 3)");
   Json passed = kCompare;
   passed["verdict"] = "pass";
   EXPECT_EQ(verdict(passed).sentence, "41.2 dB, worst error 7.5 LSB of 8 bits: within all limits");

@@ -94,25 +94,25 @@ TEST(PlanRun, WhatTheMachineDidIsNoResult) {
   const Folder folder;
   const auto plan = plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 66, 70, 71, 72, 73, 75, 126, 139]\n");
   const std::string program = script(folder);
-  std::vector<std::string> told;
+  std::vector<std::string> messages;
   plan::RunOptions options{.results = folder / "results", .program = program, .program_hash = "p"};
-  options.accident = [&](const plan::Case&, const std::string& message) { told.push_back(message); };
+  options.accident = [&](const plan::Case&, const std::string& message) { messages.push_back(message); };
   const auto summary = plan::run(plan, options);
   EXPECT_EQ(summary.passed, 1u);
   EXPECT_EQ(summary.errors + summary.failed, 0u);
   EXPECT_EQ(summary.accidents, 8u);
-  ASSERT_EQ(told.size(), 8u);
-  EXPECT_EQ(told[0], "`cycles` was ended by signal 9");
-  EXPECT_THAT(told[1], HasSubstr("No space left on device"));
-  EXPECT_THAT(told[2], HasSubstr("exit code 0 without JSON"));
-  EXPECT_THAT(told[3], HasSubstr("without readable JSON"));
-  EXPECT_THAT(told[4], HasSubstr("exit code 1 without JSON"));
+  ASSERT_EQ(messages.size(), 8u);
+  EXPECT_EQ(messages[0], "`cycles` was ended by signal 9");
+  EXPECT_THAT(messages[1], HasSubstr("No space left on device"));
+  EXPECT_THAT(messages[2], HasSubstr("exit code 0 without JSON"));
+  EXPECT_THAT(messages[3], HasSubstr("without readable JSON"));
+  EXPECT_THAT(messages[4], HasSubstr("exit code 1 without JSON"));
   EXPECT_EQ(results_in(folder / "results").size(), 1u);
   EXPECT_EQ(plan::status_of(plan, folder / "results", "p", 0).all.missing, 8u);
   EXPECT_THAT(error_of([&] { merged(folder, plan); }), HasSubstr("8 of 9 results missing"));
   folder.write("mended", "");
   EXPECT_EQ(run(folder, plan, program).passed, 8u) << "all but what a signal ends";
-  std::printf("[figure] accidents = %zu, left = %zu (limit 1)\n", told.size(),
+  std::printf("[figure] accidents = %zu, left = %zu (limit 1)\n", messages.size(),
               plan::merge(plan, folder / "results", {.partial = true}).missing.size());
   EXPECT_EQ(plan::merge(plan, folder / "results", {.partial = true}).missing.size(), 1u);
 }

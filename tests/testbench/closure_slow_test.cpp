@@ -93,14 +93,14 @@ TEST(Closure, OfTinyCloses) {
   EXPECT_NE(closure_markdown(report).find("| hazards | tiny | "), std::string::npos);
   const auto json = nlohmann::ordered_json::parse(closure_json(report));
   ASSERT_EQ(json["testpoints"].size(), report.plan.testpoints.size());
-  std::size_t told = 0;
+  std::size_t found = 0;
   for (const ClosureRow& row : closure.rows) {
     for (const auto& point : json["testpoints"]) {
       if (point["name"] != row.testpoint) continue;
-      for (const ClosureBin& bin : row.bins) told += point["configurations"][0]["hits"].at(bin.name) == bin.hits;
+      for (const ClosureBin& bin : row.bins) found += point["configurations"][0]["hits"].at(bin.name) == bin.hits;
     }
   }
-  EXPECT_EQ(told, closure.bins) << "bins with their hits in the JSON";
+  EXPECT_EQ(found, closure.bins) << "bins with their hits in the JSON";
 }
 
 TEST(Closure, WithoutAClassRunIsOpen) {

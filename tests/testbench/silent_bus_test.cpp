@@ -73,13 +73,13 @@ std::unique_ptr<RtlDevice> make(Reads reads) {
   return make_verilated_device(std::make_unique<SilentTop>(reads), driver::load_config("tiny"), none, options);
 }
 
-void expect_hang(const std::function<void()>& action, const char* told) {
+void expect_hang(const std::function<void()>& action, const char* message) {
   try {
     action();
     FAIL() << "went on";
   } catch (const UserError& error) {
     EXPECT_EQ(error.code(), ExitCode::Simulation);
-    EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     std::printf("[figure] %s\n", error.what());
   }
 }

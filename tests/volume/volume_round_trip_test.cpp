@@ -114,13 +114,13 @@ TEST_F(SaveVolume, AFullDiskLeavesNothingBehind) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit small{.rlim_cur = 8192, .rlim_max = before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  std::vector<std::string> told;
+  std::vector<std::string> refusals;
   for (const char* name : {"v.nrrd", "v.nhdr", "v.nii", "v.nii.gz", "v.mha", "v.mhd"}) {
-    told.push_back(refusal([&] { save_volume(noise, folder_ / name, VoxelType::U8); }));
+    refusals.push_back(refusal([&] { save_volume(noise, folder_ / name, VoxelType::U8); }));
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  for (const auto& message : told) EXPECT_THAT(message, HasSubstr("cannot write"));
+  for (const auto& message : refusals) EXPECT_THAT(message, HasSubstr("cannot write"));
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 

@@ -34,7 +34,7 @@ class LyingTaps final : public RawTapSink {
 /// Holds the taps for as long as the device lives: a base of the device's own base class.
 struct Lies {
   LyingTaps taps;
-  RtlOptions told(RtlOptions options) {
+  RtlOptions tapped(RtlOptions options) {
     if (options.taps != nullptr) options.taps = &taps;
     return options;
   }
@@ -43,7 +43,7 @@ struct Lies {
 class WrongDevice final : private Lies, public PassingDevice {
  public:
   WrongDevice(const cmodel::Config& config, cmodel::PixelSink& pixels, const RtlOptions& given)
-      : Lies{LyingTaps(given.taps)}, PassingDevice(make_true(config, pixels, told(given))) {}
+      : Lies{LyingTaps(given.taps)}, PassingDevice(make_true(config, pixels, tapped(given))) {}
 };
 
 }  // namespace

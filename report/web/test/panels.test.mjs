@@ -147,9 +147,9 @@ test("culling: its rows are the result's, and the best is named", async () => {
   assert.equal(await section.locator("table[aria-label=Culling] tbody tr").count(), rows.length);
   assert.ok((await compare_figures(page, `#cycles-${index} table[aria-label=Culling]`)) >= 8 * rows.length);
   const best = rows.reduce((least, row) => (row.cycles < least.cycles ? row : least));
-  const told = await section.locator("h3:text('Occlusion culling') + p").textContent();
-  if (best.cull_map === "off") assert.match(told, /saves no cycles/);
-  else assert.match(told, new RegExp(`^by ${best.cull_map}, ${best.fetch ? "fetched" : "all sent"}: ${best.times_fewer.toFixed(2)} times fewer`));
+  const shown = await section.locator("h3:text('Occlusion culling') + p").textContent();
+  if (best.cull_map === "off") assert.match(shown, /saves no cycles/);
+  else assert.match(shown, new RegExp(`^by ${best.cull_map}, ${best.fetch ? "fetched" : "all sent"}: ${best.times_fewer.toFixed(2)} times fewer`));
   figure("rows of the culling table", rows.length, ">= 5");
   assert.ok(rows.length >= 5);
   await page.finish();
@@ -333,8 +333,8 @@ test("2,000 rows: sorting, filtering, the first and the last row", async () => {
   await section.locator("input[type=search]").first().fill(`Cost<${limit} index.kind=linear`);
   const took = Date.now() - begun;
   const wanted = rows.filter((row) => row.metrics.cost < limit && row.axes["index.kind"] === "linear").length;
-  const told = await section.locator(".controls .note").first().textContent();
-  assert.equal(shown_number(told).value, wanted);
+  const shown = await section.locator(".controls .note").first().textContent();
+  assert.equal(shown_number(shown).value, wanted);
   assert.ok(wanted > 50 && wanted < 1000);
   figure("rows left by the filter", wanted);
   figure("milliseconds of filtering 2,000 rows", took, "< 1500");
@@ -384,8 +384,8 @@ test("the front of a real plan is that of plan pareto", async () => {
   assert.equal(results[0].rows.length, 6);
   const [x, y] = await section.locator(".controls select").evaluateAll((all) => all.slice(0, 2).map((select) => select.value));
   assert.equal(`${x} ${y}`, "cost psnr_db");
-  const told = result("front", ["plan", "pareto", "merged.json", "--x", x, "--y", y]);
-  const wanted = told.front.map((row) => row.id ?? row);
+  const shown = result("front", ["plan", "pareto", "merged.json", "--x", x, "--y", y]);
+  const wanted = shown.front.map((row) => row.id ?? row);
   const front = (await section.locator("[data-front]").getAttribute("data-front")).split(" ");
   assert.deepEqual([...front].sort(), [...wanted].sort());
   const compared = await compare_figures(page, "section[data-panel=plan]");
@@ -416,14 +416,14 @@ test("a drawing is one stop of Tab, and arrows tell every bar's number", async (
   const svg = page.locator("section[data-panel=cycles] svg").first();
   assert.equal(await svg.locator("[tabindex='0']").count(), 1);
   await svg.locator("[tabindex='0']").focus();
-  const told = [];
+  const shown = [];
   const count = Object.keys(results[0].cycles.account).length + 1;
   for (let i = 0; i < count; ++i) {
-    told.push(await page.locator("section[data-panel=cycles] .tip").first().textContent());
+    shown.push(await page.locator("section[data-panel=cycles] .tip").first().textContent());
     await page.keyboard.press("ArrowDown");
   }
-  for (const [i, cycles] of [...Object.values(results[0].cycles.account), results[0].cycles.actual].entries()) assert.equal(shown_number(told[i].split(": ")[1]).value, cycles, told[i]);
-  figure("bars read with the keyboard", told.length, ">= 9");
+  for (const [i, cycles] of [...Object.values(results[0].cycles.account), results[0].cycles.actual].entries()) assert.equal(shown_number(shown[i].split(": ")[1]).value, cycles, shown[i]);
+  figure("bars read with the keyboard", shown.length, ">= 9");
   await page.finish();
 });
 

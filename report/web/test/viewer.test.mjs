@@ -41,7 +41,7 @@ const encoded = (linear) => {
 };
 
 const under = (page) => page.getAttribute(".words caption", "data-at");
-const told_errors = (page) => page.$$eval('tr[data-words="error"] td.num:not(.values)', (cells) => cells.map((c) => Number(c.textContent.replace("\u2212", "-"))));
+const shown_errors = (page) => page.$$eval('tr[data-words="error"] td.num:not(.values)', (cells) => cells.map((c) => Number(c.textContent.replace("\u2212", "-"))));
 
 /** Pairs of boxes that lie on each other, of panels and of what stands in the viewer; runs in the page. */
 function overlaps() {
@@ -103,7 +103,7 @@ test("the words under the pixel are the file's", async () => {
     const words = await page.$$eval(`tr[data-words="${id}"] td.num:not(.values)`, (cells) => cells.map((c) => Number(c.textContent)));
     assert.deepEqual(words, pixel_of("raw.exr", x, y));
     const golden = pixel_of("golden.exr", x, y), test_ = words.map((word) => word / 65536);
-    const errors = await told_errors(page);
+    const errors = await shown_errors(page);
     errors.forEach((e, c) => assert.ok(Math.abs(e - (test_[c] - golden[c]) * 255) < 0.004, `channel ${c}: ${e}`));
     checked += words.length + errors.length;
     await page.finish();
@@ -122,7 +122,7 @@ async function spot_of(page, selector, x, y) {
 }
 
 /** A pixel in which the two pictures look as different as anywhere. */
-function telling() {
+function distinct() {
   let best = null;
   for (let y = 4; y < 44; y += 4)
     for (let x = 4; x < 44; x += 4) {
@@ -136,7 +136,7 @@ function telling() {
 const near = (got, expected, what) => got.slice(0, 3).forEach((v, c) => assert.ok(Math.abs(v - expected[c]) <= 1, `${what}: ${got} and not ${expected}`));
 
 test("panes show their own picture, the slider parts them, zoom moves all", async () => {
-  const { x, y, a, b, apart } = telling();
+  const { x, y, a, b, apart } = distinct();
   figure("how far the two pictures are apart on the screen", apart, "> 60");
   assert.ok(apart > 60);
   const page = await open(failing);
@@ -214,7 +214,7 @@ test("the worst pixel is the compare's", async () => {
   await page.mouse.move(2, 2);
   await drawn(page);
   assert.equal(await under(page), `${worst.x},${worst.y}`);
-  const errors = await told_errors(page);
+  const errors = await shown_errors(page);
   assert.ok(Math.abs(errors[worst.channel] - worst.error_lsb) < 0.01, `${errors} and not ${worst.error_lsb}`);
   assert.ok(Math.abs(worst.error_lsb) === Math.max(...errors.map(Math.abs)) || Math.abs(Math.abs(worst.error_lsb) - Math.max(...errors.map(Math.abs))) < 0.01);
   assert.ok(clusters.length > 0);

@@ -53,7 +53,7 @@ module fastsplat_bench;
     $fatal(1, "the device under test failed");
   endtask
 
-  function automatic bit willing(input chandle pattern);
+  function automatic bit ready_now(input chandle pattern);
     int now;
     return fastsplat_pattern_at(pattern, cycle, now) == 0 && now != 0;
   endfunction
@@ -61,7 +61,7 @@ module fastsplat_bench;
   // One cycle: its inputs are set after the edge before it; true if the offered beat is taken in it.
   task automatic tick(input bit offered, output bit taken);
     s_tvalid_i = offered;
-    m_tready_i = willing(sink);
+    m_tready_i = ready_now(sink);
     #1 taken = offered && s_tready_o;  // ready answers within the cycle
     @(posedge clk_i);
     #1 cycle = cycle + 1;
@@ -72,7 +72,7 @@ module fastsplat_bench;
     bit offered = 0, taken = 0;
     s_tdata_i = beat;
     for (int waited = 0; !taken; waited++) begin
-      offered = offered || willing(source);
+      offered = offered || ready_now(source);
       tick(offered, taken);
       if (waited > TIMEOUT) fail("the device hangs: no beat taken");
     end

@@ -50,7 +50,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function int fastsplat_pattern_create(
     input string text, input longint unsigned seed, output chandle pattern);
   import "DPI-C" function int fastsplat_pattern_at(
-    input chandle pattern, input longint unsigned cycle, output int willing);
+    input chandle pattern, input longint unsigned cycle, output int ready);
 
   // Number of 32-bit words of a vector.
   function automatic int unsigned words_of(input int unsigned bits);

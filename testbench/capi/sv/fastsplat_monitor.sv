@@ -40,7 +40,7 @@ module fastsplat_monitor (
 
   chandle judge = null;            // set by open(); until then nothing is reported
   longint unsigned cycle = 0;        // since reset was released
-  bit told = 0;                      // something was reported since reset
+  bit reported = 0;                  // something was reported since reset
   int unsigned refused = 0;          // calls that the checker refused: the bench or the stream is wrong
 
   // False, with the reason printed, if the checker cannot be created.
@@ -55,7 +55,7 @@ module fastsplat_monitor (
     return judge != null;
   endfunction
 
-  function automatic void tell(input int status);
+  function automatic void report(input int status);
     if (status == 0) return;
     if (refused == 0) $display("fastsplat_monitor: cycle %0d: %s", cycle, fastsplat_last_error());
     refused = refused + 1;
@@ -64,29 +64,29 @@ module fastsplat_monitor (
   always @(posedge clk_i) begin
     if (!rst_ni) begin
       cycle = 0;
-      if (told) tell(fastsplat_checker_reset(judge));
-      told = 0;
+      if (reported) report(fastsplat_checker_reset(judge));
+      reported = 0;
     end else begin
       if (judge != null && refused == 0) begin
         if (tap_snap_valid_o)
-          tell(fastsplat_dpi_snap(judge, cycle, tap_tile_o, tap_snap_tag_o, 32'(tap_snap_x_o), 32'(tap_snap_y_o),
+          report(fastsplat_dpi_snap(judge, cycle, tap_tile_o, tap_snap_tag_o, 32'(tap_snap_x_o), 32'(tap_snap_y_o),
                                   32'(tap_snap_mx_o), 32'(tap_snap_my_o)));
         if (tap_sheet_valid_o)
-          tell(fastsplat_dpi_sheet(judge, cycle, tap_tile_o, tap_sheet_tag_o, tap_sums_o, words_of($bits(tap_sums_o))));
+          report(fastsplat_dpi_sheet(judge, cycle, tap_tile_o, tap_sheet_tag_o, tap_sums_o, words_of($bits(tap_sums_o))));
         if (tap_window_valid_o)
-          tell(fastsplat_dpi_window(judge, cycle, tap_tile_o, tap_window_tag_o, 32'(tap_window_x_o), 32'(tap_window_y_o),
+          report(fastsplat_dpi_window(judge, cycle, tap_tile_o, tap_window_tag_o, 32'(tap_window_x_o), 32'(tap_window_y_o),
                                     tap_weights_o, words_of($bits(tap_weights_o))));
         if (tap_composite_valid_o)
-          tell(fastsplat_dpi_composite(judge, cycle, tap_tile_o, 32'(tap_composite_block_o), tap_state_o,
+          report(fastsplat_dpi_composite(judge, cycle, tap_tile_o, 32'(tap_composite_block_o), tap_state_o,
                                        words_of($bits(tap_state_o))));
-        if (tap_sheet_done_o) tell(fastsplat_dpi_sheet_done(judge, cycle));
+        if (tap_sheet_done_o) report(fastsplat_dpi_sheet_done(judge, cycle));
         if (m_tvalid_o && m_tready_i)
-          tell(fastsplat_dpi_pixels(judge, cycle, tap_tile_o, m_tdata_o, words_of($bits(m_tdata_o)), 32'(m_tkeep_o),
+          report(fastsplat_dpi_pixels(judge, cycle, tap_tile_o, m_tdata_o, words_of($bits(m_tdata_o)), 32'(m_tkeep_o),
                                     int'(m_tlast_o), int'(m_tuser_o)));
-        if (verdict_valid_o) tell(fastsplat_dpi_verdict(judge, cycle, verdict_tag_o, int'(verdict_hidden_o)));
+        if (verdict_valid_o) report(fastsplat_dpi_verdict(judge, cycle, verdict_tag_o, int'(verdict_hidden_o)));
         if (s_tvalid_i && s_tready_o) begin
-          tell(fastsplat_dpi_took(judge, s_tdata_i));
-          told = 1;
+          report(fastsplat_dpi_took(judge, s_tdata_i));
+          reported = 1;
         end
       end
       cycle = cycle + 1;

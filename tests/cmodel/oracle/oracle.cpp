@@ -73,7 +73,7 @@ class Renderer {
     if (tile.mode != 2) fresh.C[3] = power_of_two(c.tf);
     pixels.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), fresh);
     frozen.clear();
-    promises.clear();
+    announced.clear();
     density_sheets.clear();
     ++out.counts["tiles"];
   }
@@ -95,7 +95,7 @@ class Renderer {
     ++out.counts["cull_blocks"];  // N-9-9, in every mode (N-6.1-2)
     if (!culls()) return;
     // A hidden set's splats are dropped (N-6.1-8).
-    promises.insert(promises.end(), hint.splats, hidden(hint.x, hint.y, hint.width, hint.height, cell()));
+    announced.insert(announced.end(), hint.splats, hidden(hint.x, hint.y, hint.width, hint.height, cell()));
   }
 
   // Culling, section 6.1, pixel by pixel.
@@ -115,17 +115,17 @@ class Renderer {
       }
     return true;
   }
-  bool swallowed() {
-    if (promises.empty()) return false;
-    const bool gone = promises.front();
-    promises.erase(promises.begin());
+  bool dropped() {
+    if (announced.empty()) return false;
+    const bool gone = announced.front();
+    announced.erase(announced.begin());
     return gone;
   }
 
   /// A centre relative to the tile, and a radius set (N-3-2).
   void take(const Splat& splat) {
-    if (swallowed()) return;  // N-6.1-8: no counter, no tap
-    ++out.counts["splats"];   // N-9-9, hidden or not (N-6.1-9)
+    if (dropped()) return;   // N-6.1-8: no counter, no tap
+    ++out.counts["splats"];  // N-9-9, hidden or not (N-6.1-9)
     const RadiusSet& set = sets.at(splat.set);
     const Words grid = s(c.pi, log2_of(c.K()));
     const auto first = [&](Wide p) {
@@ -145,7 +145,7 @@ class Renderer {
   }
 
   void take(const Ellipse& e) {
-    if (swallowed()) return;
+    if (dropped()) return;
     ++out.counts["splats"];
     ++out.ellipses.records;
     const FirstPixel first = first_pixel(c, e);
@@ -464,7 +464,7 @@ class Renderer {
   std::uint32_t sheet = 0;
   std::vector<Pixel> pixels;
   std::vector<std::vector<bool>> frozen;  // the tile's pixels after each of its sheets
-  std::vector<bool> promises;             // of the next splats, whether their set is hidden
+  std::vector<bool> announced;            // of the next splats, whether their set is hidden
 };
 
 }  // namespace

@@ -194,7 +194,7 @@ std::string keys(const Json& designs, const std::string& family) {
       family, kCells, cells(plain->at("total")), kCells, table, kCells, modules);
 }
 
-bool tells_of_a_key(const Json& design) {
+bool names_a_key(const Json& design) {
   const auto is = [&](const char* name) { return design.at("design") == name; };
   return is(kPlain) || std::ranges::any_of(kKeys, [&](const auto& key) { return is(key.first); });
 }
@@ -211,7 +211,7 @@ std::string synthesis(const Json& designs, const Json& now) {
     if (design.contains("placement")) out += placement(design);
   out += keys(designs, "xc7");
   for (const Json& design : designs) {
-    if (!design.contains("modules") || tells_of_a_key(design)) continue;
+    if (!design.contains("modules") || names_a_key(design)) continue;
     out += fmt::format("### {}, {}\n\n| module | times | levels |{}\n|---|---|---|---|---|---|---|---|---|---|\n",
                        design.at("design").get<std::string>(), design.at("family").get<std::string>(), kCells);
     for (const auto& [name, module] : design.at("modules").items())

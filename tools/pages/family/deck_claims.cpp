@@ -42,7 +42,7 @@ class Cells {
 };
 
 /// Holds, InPart or Fails if all, some or none of `parts` hold.
-Verdict judged(std::initializer_list<bool> parts) {
+Verdict verdict_of(std::initializer_list<bool> parts) {
   const auto held = std::count(parts.begin(), parts.end(), true);
   return held == static_cast<long>(parts.size()) ? Verdict::Holds : held > 0 ? Verdict::InPart : Verdict::Fails;
 }
@@ -56,8 +56,8 @@ Claim controllable(const Cells& at) {
                                  "N = 64, {:.2f} at N = 2048 (squared, aligned); both as predicted",
                                  coarse.turned.rms, kCoarse, fine.turned.rms, kFine, few.aligned.largest,
                                  many.aligned.largest),
-          .verdict =
-              judged({fine.turned.rms < coarse.turned.rms / 8.0, many.aligned.largest < few.aligned.largest / 16.0})};
+          .verdict = verdict_of(
+              {fine.turned.rms < coarse.turned.rms / 8.0, many.aligned.largest < few.aligned.largest / 16.0})};
 }
 
 Claim ellipse_cost(const Cells& at, const EllipseErrors& ellipses) {
@@ -73,8 +73,8 @@ Claim ellipse_cost(const Cells& at, const EllipseErrors& ellipses) {
                              "at most. Half a step of the table is {:.2f}",
                              a.adds, a.multiplies, b.adds, b.multiplies, circle.cycles, ellipse.cycles,
                              ellipse.bits - circle.bits, ellipses.aspect, ellipses.ellipse.largest, circle.index_max),
-      .verdict = judged({a.adds == b.adds && a.multiplies == b.multiplies, circle.cycles == ellipse.cycles,
-                         ellipses.ellipse.largest < 1.1 * circle.index_max, ellipses.least_q >= 0})};
+      .verdict = verdict_of({a.adds == b.adds && a.multiplies == b.multiplies, circle.cycles == ellipse.cycles,
+                             ellipses.ellipse.largest < 1.1 * circle.index_max, ellipses.least_q >= 0})};
 }
 
 Claim no_computation(const Cells& at) {
@@ -84,7 +84,7 @@ Claim no_computation(const Cells& at) {
           .figures = fmt::format("{} add and {} multiply a pixel: those of the product and its sum, which all kinds "
                                  "have; {} read",
                                  blit.operations.adds, blit.operations.multiplies, blit.operations.reads),
-          .verdict = judged({blit.operations.adds == 1 && blit.operations.multiplies == 1})};
+          .verdict = verdict_of({blit.operations.adds == 1 && blit.operations.multiplies == 1})};
 }
 
 Claim limited_storage(const Cells& at) {
@@ -99,7 +99,7 @@ Claim limited_storage(const Cells& at) {
                                        kBits, blit->turned.rms, blit->config.grid(), rlut->turned.rms,
                                        rlut->config.grid(), axis->turned.rms, axis->config.grid())
                          : std::string("no kind fits"),
-          .verdict = judged({all && blit->turned.rms > 2.0 * rlut->turned.rms})};
+          .verdict = verdict_of({all && blit->turned.rms > 2.0 * rlut->turned.rms})};
 }
 
 Claim finer_parallelism(const Cells& at) {
@@ -109,7 +109,7 @@ Claim finer_parallelism(const Cells& at) {
           .figures = fmt::format("cycles a splat (r = 8): {} along scan lines (squared), {} by windows (rlut), for {} "
                                  "bits more",
                                  line.cycles, window.cycles, window.bits - line.bits),
-          .verdict = judged({line.cycles >= 4 * window.cycles})};
+          .verdict = verdict_of({line.cycles >= 4 * window.cycles})};
 }
 
 Claim one_set(const Cells& at) {
@@ -123,7 +123,7 @@ Claim one_set(const Cells& at) {
               "one RLUT set, k 1D tables, each of splat_extent length",
           .figures = fmt::format("{} words at r = 4: {} tables of {}; x and y read the same", words, rlut.config.phases,
                                  extent),
-          .verdict = judged({words == std::int64_t{rlut.config.phases} * extent})};
+          .verdict = verdict_of({words == std::int64_t{rlut.config.phases} * extent})};
 }
 
 Claim linear(const Cells& at) {
@@ -136,8 +136,8 @@ Claim linear(const Cells& at) {
                                  own.aligned.largest, squared.aligned.largest, kClaimEntries, own.turned.rms,
                                  squared.turned.rms, own.bits, own.cycles, squared.cycles, rlut.cycles,
                                  own.operations.root_steps),
-          .verdict = judged({(own.aligned.largest < 0.75 * squared.aligned.largest), own.bits <= rlut.bits,
-                             (own.cycles > 4 * squared.cycles)})};
+          .verdict = verdict_of({(own.aligned.largest < 0.75 * squared.aligned.largest), own.bits <= rlut.bits,
+                                 (own.cycles > 4 * squared.cycles)})};
 }
 
 Claim squared(const Cells& at) {
@@ -148,8 +148,8 @@ Claim squared(const Cells& at) {
                                  "for linear's {}, though rlut takes {} (r = 4)",
                                  own.aligned.largest, own.aligned.rms, own.turned.rms, own.bits, own.cycles,
                                  linear_cell.cycles, rlut.cycles),
-          .verdict = judged({own.aligned.rms < 1.0 && own.turned.rms < 1.0, own.bits <= linear_cell.bits,
-                             own.cycles * 4 < linear_cell.cycles})};
+          .verdict = verdict_of({own.aligned.rms < 1.0 && own.turned.rms < 1.0, own.bits <= linear_cell.bits,
+                                 own.cycles * 4 < linear_cell.cycles})};
 }
 
 Claim rlut(const Cells& at) {
@@ -161,8 +161,8 @@ Claim rlut(const Cells& at) {
                                  own.turned.rms, squared_cell.turned.rms, own.bits,
                                  static_cast<double>(own.bits) / static_cast<double>(squared_cell.bits),
                                  blit.bits / own.bits, own.cycles, own.operations.adds, own.operations.multiplies),
-          .verdict = judged({own.turned.rms < 1.0 && own.turned.rms <= 1.01 * squared_cell.turned.rms,
-                             10 * own.bits < blit.bits, own.cycles < squared_cell.cycles})};
+          .verdict = verdict_of({own.turned.rms < 1.0 && own.turned.rms <= 1.01 * squared_cell.turned.rms,
+                                 10 * own.bits < blit.bits, own.cycles < squared_cell.cycles})};
 }
 
 Claim blit(const Cells& at) {
@@ -176,8 +176,8 @@ Claim blit(const Cells& at) {
                                  "4). Accurate or compact, unless the condition is that places are few",
                                  fine.cycles, kFine, fine.aligned.largest, fine.turned.rms, fine.bits, rlut_cell.bits,
                                  both, rlut_cell.turned.rms),
-          .verdict = judged({fine.cycles <= rlut_cell.cycles, fine.aligned.largest < rlut_cell.aligned.largest,
-                             compact != nullptr && both < 2.0 * rlut_cell.turned.rms})};
+          .verdict = verdict_of({fine.cycles <= rlut_cell.cycles, fine.aligned.largest < rlut_cell.aligned.largest,
+                                 compact != nullptr && both < 2.0 * rlut_cell.turned.rms})};
 }
 
 }  // namespace

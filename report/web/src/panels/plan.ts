@@ -111,7 +111,7 @@ export const plan: Panel = {
       },
       "All rows",
     );
-    const told = h("p", { class: "note", "aria-live": "polite" });
+    const note = h("p", { class: "note", "aria-live": "polite" });
     const place = h("div");
     const key = h("div");
     if (plottable.length >= 2) {
@@ -124,7 +124,7 @@ export const plan: Panel = {
         h("div", { class: "controls" }, h("label", {}, "Across ", pick_x), h("label", {}, "Up ", pick_y), h("label", {}, "Colour ", pick_colour), clear),
         place,
         key,
-        told,
+        note,
       );
     }
 
@@ -161,14 +161,14 @@ export const plan: Panel = {
           span = to;
           listed?.only(to === null ? null : (row) => inside(row, x, y, to));
         },
-        hovered: (at: { line: number; at: number } | null) => tell(at ? lines_rows[at.line][at.at] : null, x, y),
+        hovered: (at: { line: number; at: number } | null) => describe(at ? lines_rows[at.line][at.at] : null, x, y),
         picked: (at: { line: number; at: number }) => choose(lines_rows[at.line][at.at], true),
       };
       if (drawn) drawn.update(lines, settings);
       else drawn = plot(place, settings, lines);
       key.replaceChildren(line_legend(lines.filter((line) => line.name !== "chosen" || line.points.length)));
       key.dataset.front = front.map((row) => row.id).join(" ");
-      tell(null, x, y);
+      describe(null, x, y);
     }
 
     function inside(row: Result, x: Quantity, y: Quantity, to: Span): boolean {
@@ -176,8 +176,8 @@ export const plan: Panel = {
       return typeof x.of(row) === "number" && typeof y.of(row) === "number" && a >= to.x[0] && a <= to.x[1] && b >= to.y[0] && b <= to.y[1];
     }
 
-    function tell(row: Result | null, x: Quantity, y: Quantity): void {
-      told.textContent = row
+    function describe(row: Result | null, x: Quantity, y: Quantity): void {
+      note.textContent = row
         ? `${Object.entries(row.axes ?? {}).map(([name, value]) => `${name} ${value}`).join(", ")}: ${x.title} ${number_text(x.of(row))}, ${y.title} ${number_text(y.of(row))}, ${row.status}`
         : span
           ? `${number_text(shown.length)} cases in the rectangle; a click beside the points takes it back.`
@@ -223,7 +223,7 @@ export const plan: Panel = {
         // The filter changes the front; the brush alone keeps the points.
         if (span) {
           shown = left;
-          told.textContent = `${number_text(left.length)} cases in the rectangle; a click beside the points takes it back.`;
+          note.textContent = `${number_text(left.length)} cases in the rectangle; a click beside the points takes it back.`;
         } else draw();
       },
     });

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(JsonReport, HasThePromisedKeysAndTheReportsNumbers) {
+TEST(JsonReport, HasTheDocumentedKeysAndTheReportsNumbers) {
   const Image ref = images::random_image(32, 24, 4, 1);
   const CompareReport report = compare(ref, images::random_image(32, 24, 4, 2), {.lsb_bits = 10, .min_psnr_db = 48.0});
   const json parsed = json::parse(to_json(report));

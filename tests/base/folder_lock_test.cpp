@@ -43,7 +43,7 @@ TEST(FolderLock, OneProcessAtATime) {
   EXPECT_EQ(count, kProcesses * kTurns);
 }
 
-TEST(FolderLock, AFolderThatIsNotThereIsTold) { EXPECT_THROW(FolderLock("/nonexistent/x"), UserError); }
+TEST(FolderLock, AMissingFolderIsReported) { EXPECT_THROW(FolderLock("/nonexistent/x"), UserError); }
 
 }  // namespace
 }  // namespace fastsplat

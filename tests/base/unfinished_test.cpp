@@ -85,7 +85,7 @@ TEST_F(Unfinished, ASignalEndsHelpersBeforeWhatTheyWriteIsRemoved) {
   EXPECT_EQ(errno, ESRCH);
 }
 
-TEST_F(Unfinished, AHelperTellsHowItEnded) {
+TEST_F(Unfinished, AHelperReportsHowItEnded) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(7);
   const int status = HelperProcess(child).wait();

@@ -118,7 +118,7 @@ TEST(CapiChecker, ARefusedStreamNamesItself) {
 }
 
 /// As SystemVerilog tells it: each argument of a port gets to where it is compared.
-TEST(CapiChecker, WhatSystemVerilogTellsIsCompared) {
+TEST(CapiChecker, EveryPortOfTheMonitorIsCompared) {
   using testbench::RawPort;
   const Truth& truth = truth_of("tiny");
   const auto check_port = [&](RawPort wrong, const char* what, auto spoil) {

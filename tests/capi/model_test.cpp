@@ -153,7 +153,7 @@ TEST(CapiModel, ConfigurationsByNameTextAndFileAreTheSame) {
   EXPECT_EQ(fastsplat_model_destroy(model), FASTSPLAT_OK);
 }
 
-TEST(CapiModel, NamesAndVersionsAreTold) {
+TEST(CapiModel, NamesAndVersionsAreReported) {
   EXPECT_EQ(fastsplat_api_version(), (FASTSPLAT_API_MAJOR << 16 | FASTSPLAT_API_MINOR));
   EXPECT_STRNE(fastsplat_version(), "");
   std::vector<std::string> names, counters;

@@ -59,7 +59,7 @@ TEST(Scoreboard, PassesEqualRecords) {
   EXPECT_EQ(board.mismatches(), 0u);
 }
 
-TEST(Scoreboard, SeesEveryDifferenceAndTellsIt) {
+TEST(Scoreboard, ReportsEveryDifference) {
   const auto config = named_config("tiny");
   for (const auto& difference : differences()) {
     testbench::Scoreboard board;

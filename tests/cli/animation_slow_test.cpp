@@ -233,7 +233,7 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
   }
 }
 
-TEST(AnimationMisuse, AFrameThatCannotBeIsToldBeforeTheFirst) {
+TEST(AnimationMisuse, AnImpossibleFrameIsReportedBeforeTheFirst) {
   const TempFolder folder;
   std::ofstream(folder / "s.toml") << "volume = \"shells:8\"\n[camera]\nprojection = \"perspective\"\n[image]\nsize = "
                                       "16\n[lens]\ndepth_of_field = \"splats\"\naperture = 2.0\n[sequence]\nframes = "
@@ -243,7 +243,7 @@ TEST(AnimationMisuse, AFrameThatCannotBeIsToldBeforeTheFirst) {
   EXPECT_EQ(folder.entries().size(), 1u);
 }
 
-TEST(AnimationMisuse, WhereNothingCanBeWrittenIsToldBeforeTheFirstFrame) {
+TEST(AnimationMisuse, UnwritableFoldersAreReportedBeforeTheFirstFrame) {
   const TempFolder folder;
   expect_error(fastsplat(turning({"-o", folder / "none/f.##.png"})), 3, {"none", "does not exist"});
   std::filesystem::create_directory(folder / "f.02.png");

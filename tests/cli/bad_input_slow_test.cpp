@@ -114,7 +114,7 @@ TEST(BadInput, AVolumeOf1e53VoxelsIsRefusedBeforeAnyAllocation) {
   expect_refused("volume", path, folder, {"huge.nrrd"});
 }
 
-TEST(BadInput, HeadersThatPromiseMoreThanTheFileHolds) {
+TEST(BadInput, HeadersThatDeclareMoreThanTheFileHolds) {
   const TempFolder folder;
   expect_refused(
       "volume", folder.write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 100 100 100\nencoding: raw\n\nabc"),

@@ -29,7 +29,7 @@ double number_after(const std::string& text, const std::string& word) {
   return at == std::string::npos ? std::nan("") : std::strtod(text.c_str() + at + word.size(), nullptr);
 }
 
-TEST(CompareJudges, IdiffFindsTheSameErrors) {
+TEST(CompareChecksThresholds, IdiffFindsTheSameErrors) {
   if (!in_path("idiff")) GTEST_SKIP() << "idiff (openimageio-tools) is not installed";
   const TempFolder folder;
   using images::PixelKind;

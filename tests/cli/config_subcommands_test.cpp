@@ -45,7 +45,7 @@ TEST(ConfigDiff, EqualIsAPass) {
   EXPECT_TRUE(json.at("differences").empty());
 }
 
-TEST(ConfigDiff, TellsEveryKeyThatDiffersAndNoOther) {
+TEST(ConfigDiff, ListsEveryKeyThatDiffersAndNoOther) {
   const auto [code, out] = said({"config", "diff", "base", "wide", "--json", "-"});
   EXPECT_EQ(code, ExitCode::Failed);
   const auto base = driver::load_config("base"), wide = driver::load_config("wide");

@@ -135,7 +135,7 @@ TEST(Cycles, TimelineHasEverySheetAndTileAndTheTraceStaysAsItIs) {
               static_cast<unsigned long long>(windows), static_cast<unsigned long long>(last));
 }
 
-TEST(Cycles, MisuseIsToldBeforeAnyWork) {
+TEST(Cycles, MisuseIsReportedBeforeAnyWork) {
   const TempFolder folder;
   expect_error(fastsplat({"cycles", "--stream", "a.fss", "--volume", "shells:8"}), 2, {"--stream", "scene"});
   expect_error(fastsplat({"cycles", "--volume", "shells:8", "--ready", "sometimes"}), 2, {"sometimes", "every-N"});

@@ -32,7 +32,7 @@ TEST(Demos, TakeFlagsSequencesAndDevices) {
   EXPECT_EQ(read_bytes(folder / "c.exr"), read_bytes(folder / "d.exr"));
 }
 
-TEST(Demos, AMistypedNameIsToldTheNearest) {
+TEST(Demos, AMistypedNameGetsTheNearestAsSuggestion) {
   expect_error(fastsplat({"render", "--scene", "demo:tunel", "-o", "a.exr"}), 2, {"'tunel'", "did you mean 'tunnel'"});
   expect_error(fastsplat({"render", "--scene", "demo:", "-o", "a.exr"}), 2, {"known: ", "terrain"});
   expect_error(fastsplat({"render", "--scene", "demo:terrain", "--sequence", "--frames", "3", "-o", "a.exr"}), 2,

@@ -121,7 +121,7 @@ TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
   EXPECT_GT(differences, 0);
 }
 
-TEST(GalleryMustFail, AManifestWithAMistakeIsToldWhere) {
+TEST(GalleryMustFail, AnErrorInAManifestIsLocated) {
   const TempFolder folder;
   fs::create_directory(folder / "docs");
   const std::string good =

@@ -253,7 +253,7 @@ TEST(Warnings, AnEmptyPictureIsMentioned) {
   EXPECT_TRUE(result.code == 2 || result.err.find("warning: the picture is empty") != std::string::npos) << result.err;
 }
 
-TEST(Doctor, TellsWhatThereIs) {
+TEST(Doctor, ReportsWhatIsInstalled) {
   const auto json = parsed(fastsplat({"doctor", "--json", "-"}).out);
   EXPECT_GT(json["processors"].get<int>(), 0);
   EXPECT_FALSE(json["libraries"]["OpenImageIO"].get<std::string>().empty());

@@ -88,7 +88,7 @@ std::vector<std::pair<std::string, std::string>> listed(const Tree& tree) {
   return subcommands;
 }
 
-TEST(RunVerbs, EachTellsItselfAndNothingIsBuilt) {
+TEST(RunVerbs, EachPrintsItsHelpAndBuildsNothing) {
   const Tree tree;
   const auto subcommands = listed(tree);
   for (const auto& [subcommand, line] : subcommands) {

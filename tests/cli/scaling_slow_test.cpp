@@ -171,7 +171,7 @@ TEST(Scaling, NamesTheLimit) {
   EXPECT_EQ(roofline["ruling"], "stream");
 }
 
-TEST(Scaling, IsToldOnlyWhenAskedFor) {
+TEST(Scaling, IsReportedOnlyOnRequest) {
   const auto run = fastsplat(Words{"cycles"} + kScene);
   expect_success(run);
   EXPECT_EQ(run.out.find("roofline"), std::string::npos);
@@ -181,7 +181,7 @@ TEST(Scaling, IsToldOnlyWhenAskedFor) {
     EXPECT_NE(clock.out.find(word), std::string::npos) << word << clock.out;
 }
 
-TEST(Scaling, MisuseIsToldBeforeAnyWork) {
+TEST(Scaling, MisuseIsReportedBeforeAnyWork) {
   const TempFolder folder;
   const Words scene{"cycles", "--volume", "shells:8"};
   expect_error(fastsplat(scene + Words{"--devices", "0"}), 2, {"--devices", "1 to 64", "'0'"});

@@ -133,7 +133,7 @@ class Copied {
   TempFolder folder_;
 };
 
-TEST(StartUp, AMissingModuleIsToldBeforeTheWork) {
+TEST(StartUp, AMissingModuleIsReportedBeforeTheWork) {
   const Copied copied;
   copied.expect_refused(copied.render_for_minutes(), {kModule, "missing", "/lib/fastsplat/", "./run build"});
   // What else is wrong with a command is reported first: the library costs a quarter of a second.

@@ -60,7 +60,7 @@ TEST_F(StreamVerbs, APipeIsNoFile) {
 }
 
 // S-reader-3.
-TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
+TEST_F(StreamVerbs, ADumpPrintsTheBeatsAndThenTheError) {
   const auto whole = read_bytes(stream_);
   const auto good = fastsplat({"stream", "dump", stream_});
   expect_success(good);
@@ -87,7 +87,7 @@ TEST_F(StreamVerbs, ADumpTellsWhatIsThereAndThenWhatIsWrong) {
 }
 
 // A text file is reported as "no stream", not as a stream that ends too early (S-reader-1, S-reader-3).
-TEST_F(StreamVerbs, WhatIsNoStreamIsToldSo) {
+TEST_F(StreamVerbs, FilesThatAreNotStreamsAreRefused) {
   const auto whole = read_bytes(stream_);
   std::string other_magic = whole;
   other_magic[4] = 'X';
@@ -168,7 +168,7 @@ TEST_F(StreamVerbs, TheLimitOfARecordingIsSaidBeforeTheWork) {
       {"--size", "67108864", "smaller"});
 }
 
-TEST_F(StreamVerbs, AConfigurationWithoutRtlIsToldSo) {
+TEST_F(StreamVerbs, AConfigurationWithoutRtlIsRefused) {
   const auto check = [&](const std::vector<std::string>& changes) {
     std::vector<std::string> words{"config", "check", "tiny", "--json", folder_ / "c.json"};
     words.insert(words.end(), changes.begin(), changes.end());

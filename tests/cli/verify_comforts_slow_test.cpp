@@ -37,7 +37,7 @@ class VerifyComforts : public ::testing::Test {
   Surroundings here_;
 };
 
-TEST_F(VerifyComforts, APlantedFaultIsToldInEveryFace) {
+TEST_F(VerifyComforts, APlantedFaultIsInEveryFormat) {
   const auto run =
       verify({"--random", "1000", "--fault", "FORWARD_3", "--json", "result.json", "--junit", "result.xml"});
   ASSERT_EQ(run.code, 1) << run.err;

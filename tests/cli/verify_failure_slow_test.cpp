@@ -72,7 +72,7 @@ TEST_F(VerifyFailure, OfASceneCountsWhatRan) {
   EXPECT_GT(json_of().at("windows"), 10);
 }
 
-TEST_F(VerifyFailure, IsToldBeforeItsFiles) {
+TEST_F(VerifyFailure, IsReportedBeforeItsFiles) {
   // Nothing but what is short can be written: neither the stream nor the waveform.
   here_.largest_file = 300;
   const auto run = verify({"--random", "300", "--json", "-"}, here_);

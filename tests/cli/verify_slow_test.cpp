@@ -25,7 +25,7 @@ std::uint64_t agreed_cycles(const nlohmann::json& json) {
   return rtl;
 }
 
-TEST(Verify, TellsTheCyclesOfRtlAndModel) {
+TEST(Verify, PrintsTheCyclesOfRtlAndModel) {
   for (const std::vector<std::string>& what :
        {std::vector<std::string>{"--random", "100"}, {"--volume", "shells:8", "--size", "24"}}) {
     std::vector<std::string> arguments{"verify", "--config", "tiny", "--json", "-"};
@@ -43,7 +43,7 @@ TEST(Verify, TellsTheCyclesOfRtlAndModel) {
   }
 }
 
-TEST(Verify, TellsEverySeedOfACampaign) {
+TEST(Verify, ReportsEverySeedOfACampaign) {
   const auto run =
       fastsplat({"verify", "--config", "tiny", "--random", "200", "--seed", "7", "--seeds", "3", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -78,7 +78,7 @@ TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
   EXPECT_GT(json.at("comparisons"), 100);
 }
 
-TEST(Verify, RenderWithCheckTellsThemToo) {
+TEST(Verify, RenderWithCheckReportsThemToo) {
   const auto render = [](bool check) {
     std::vector<std::string> arguments{"render", "--volume", "shells:8", "--size", "24", "--engine",
                                        "rtl",    "--config", "tiny",     "--json", "-"};

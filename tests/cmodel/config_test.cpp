@@ -323,7 +323,7 @@ TEST(ConfigSet, EveryKeyTakesItsTextAndGivesItBack) {
 }
 
 // N-2-2: an unknown key; N-2-7: values out of their limits.
-TEST(ConfigSet, WhatIsWrongIsToldAndNothingChanges) {
+TEST(ConfigSet, MisuseIsReportedAndNothingChanges) {
   struct Wrong {
     const char *key, *value, *expected, *got;
   };

@@ -291,7 +291,7 @@ void twice_the_most(StreamWriter& w, int splat) {
 }
 
 // S-cull-4 to S-cull-8, and where each is not broken.
-TEST(CullingRule, PromisesAreChecked) {
+TEST(CullingRule, AnnouncementsAreChecked) {
   const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
   const int lanes = config.lanes, first = 1 - lanes / 2;
   const int y = 5 - lanes / 2;

@@ -67,7 +67,7 @@ std::vector<std::uint8_t> stream_with(const cmodel::Config& config, const std::v
 
 // N-6.3-2, N-6.3-3; both or neither (N-6.3-1).
 // S-table-1, S-table-13.
-TEST(Patterns, TablesAreJudged) {
+TEST(Patterns, TablesAreChecked) {
   cmodel::Config plain = named_config("tiny"), config = plain;
   config.pattern_node_bits = 1;
   const std::vector<std::uint32_t> nodes(16, 0xFFFFFFFF), words(13, 65535);

@@ -192,7 +192,7 @@ TEST(Ellipses, TilesNeverShow) {
 }
 
 // N-8-45.
-TEST(Ellipses, ThinFootprintsAreWidenedAndTold) {
+TEST(Ellipses, ThinFootprintsAreWidenedWithAWarning) {
   auto description = view_of("shells:64", 12);
   perspective(description);
   const auto device = render(scene::build_scene(description), load_config("ellipse"));

@@ -73,7 +73,7 @@ class JournalFile : public ::testing::Test {
       std::filesystem::temp_directory_path() / ("fastsplat_journal_" + std::to_string(::getpid()) + ".jsonl");
 };
 
-TEST_F(JournalFile, KeepsWhatItWasToldToTheLastBit) {
+TEST_F(JournalFile, KeepsItsValuesToTheLastBit) {
   const Fidelity awkward{0.1 + 0.2, 1.0 / 3.0};
   {
     Journal journal(path_);

@@ -162,7 +162,7 @@ TEST(Ranges, ThreadsDoNotMatterAndScenesAdd) {
 }
 
 /// What saturates, made as wide as is told, does not; one bit less and it does.
-TEST(Ranges, FormatsToldSaturateNothingAndAreNotTooWide) {
+TEST(Ranges, ReportedFormatsSaturateNothingAndAreNotTooWide) {
   int frames = 0;
   for (const char* name : {"tiny", "small", "base"}) {
     for (const auto method : {scene::Method::ImageAligned, scene::Method::XRay}) {

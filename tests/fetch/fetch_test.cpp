@@ -163,7 +163,7 @@ TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
 }
 
 // Each error (M-fetch-17); commands that break M-fetch-1.
-TEST(Fetch, TellsErrorsAndStops) {
+TEST(Fetch, ReportsErrorsAndStops) {
   const FetchStream stream = stream_of("tiny", 5, 200);
   int told = 0;
   for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {

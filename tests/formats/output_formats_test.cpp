@@ -92,7 +92,7 @@ TEST(OutputFormats, JunitHasACasePerGate) {
       << xml;
 }
 
-TEST(OutputFormats, JunitTellsWhyAndHowToSeeItAgain) {
+TEST(OutputFormats, JunitHasTheReasonAndTheCommand) {
   const std::string compare = to_junit({kind("compare")});
   EXPECT_TRUE(holds(compare, "message=\"min_psnr_db is 51.4384, required is at least 60\"")) << compare;
   EXPECT_TRUE(holds(compare, "&#10;reproduce: fastsplat compare a.exr 'b c.exr' --max-lsb 1</failure>")) << compare;

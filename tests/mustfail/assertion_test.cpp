@@ -78,7 +78,7 @@ TEST(SimulatorOutput, FindsTheFirstFailedAssertion) {
 }
 
 // What Verilator prints goes by the thread's simulation, which was that of a device that is gone.
-TEST(AssertionOfADevice, IsToldWhenALaterDeviceIsGone) {
+TEST(AssertionOfADevice, ReportsAnErrorOfADeviceWhenALaterOneIsGone) {
   const auto options = broken(Fault::EARLY_SWAP, Assertions::On);
   cmodel::NullPixels pixels;
   const auto device = options.device(pixels, {});

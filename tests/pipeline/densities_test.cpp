@@ -170,7 +170,7 @@ TEST(DensityChain, ThreadsChangeNothing) {
     EXPECT_EQ(chain(mixture, 1), chain(mixture, 3)) << mixture.text();
 }
 
-TEST(DensityChain, StepsOfDensitiesAreToldOfDensitiesOnly) {
+TEST(DensityChain, StepsOfDensitiesAreListedForDensitiesOnly) {
   const auto description = small_density_scenes().front();
   const cmodel::Config config = with_densities("base");
   const auto steps_listed = [&](const scene::SceneDescription& of) {

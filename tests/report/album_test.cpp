@@ -123,7 +123,7 @@ TEST_F(Pictures, AResultsPicturesAreFoundBesideIt) {
 }
 
 /// Two files of one name: which is the reference is told by the compare's place, not by the name.
-TEST_F(Pictures, TellWhichSideOfWhichCompareTheyAre) {
+TEST_F(Pictures, NameTheirSideAndCompare) {
   std::filesystem::create_directory(folder_ / "a");
   std::filesystem::create_directory(folder_ / "b");
   const std::string ref = exr("a/out.exr", noise(8, 9)), test = exr("b/out.exr", noise(8, 10));

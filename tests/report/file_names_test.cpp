@@ -53,7 +53,7 @@ TEST(FileNames, ValuesAndKeysOfAnyDepthAreSeen) {
             Json({{"key.sv", Json::array({1, nullptr, true, {{"file", "a.exr"}}})}, {"number", 0.25}}));
 }
 
-TEST(FileNames, EqualNamesOfTwoFoldersAreToldApart) {
+TEST(FileNames, EqualNamesOfTwoFoldersAreDisambiguated) {
   const Json data{{"command", "fastsplat compare /home/jane/a/out.exr /home/jane/b/out.exr --map /home/jane/b/map.png"},
                   {"ref", "/home/jane/a/out.exr"},
                   {"test", "/home/jane/b/out.exr"}};

@@ -55,7 +55,7 @@ TEST_F(Results, AFailedCompareNamesItsLimits) {
   EXPECT_EQ(verdict(passed).sentence, "the pictures are identical");
 }
 
-TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
+TEST_F(Results, VerifyPrintsWhatWasCompared) {
   Json json{{"verb", "verify"}, {"verdict", "pass"}, {"comparisons", 1234567},
             {"mismatches", 0},  {"splats", 1},       {"config", "tiny"}};
   EXPECT_EQ(verdict(json).sentence,
@@ -71,7 +71,7 @@ TEST_F(Results, VerifyTellsWhatWasComparedOrThatNothingWas) {
 }
 
 /// Of 3-D Gaussians there is no scene with a volume: such a result was taken for a damaged one.
-TEST_F(Results, RendersOfVolumesAndOfGaussiansTellTheirSize) {
+TEST_F(Results, RendersOfVolumesAndOfGaussiansPrintTheirSize) {
   Json json{
       {"verb", "render"}, {"engine", "golden"}, {"scene", {{"volume", "shells:8"}, {"width", 64}, {"height", 48}}}};
   EXPECT_EQ(verdict(json).sentence, "64 x 48 pixels by the golden engine, shells:8");
@@ -91,7 +91,7 @@ TEST_F(Results, APlanIsAsGoodAsItsWorstCase) {
   EXPECT_EQ(verdict(plan).status, Status::Error) << "a plan that ran nothing proves nothing";
 }
 
-TEST_F(Results, ClosureTellsHowMuchOrTheFirstThatIsOpen) {
+TEST_F(Results, ClosurePrintsHowMuchOrTheFirstOpenBin) {
   Json json{{"verb", "closure"},
             {"verdict", "closed"},
             {"bins", {{"hit", 1200}, {"all", 1200}}},

@@ -187,7 +187,7 @@ TEST(GaussianProjection, DepthOfMaximum) {
   EXPECT_LT(worst, 1e-5);
 }
 
-TEST(GaussianScene, LimitsAreToldAndTheMiddleIsRobust) {
+TEST(GaussianScene, LimitsAreReportedAndTheMiddleIsRobust) {
   GaussianCloud cloud = make_synthetic_gaussians("shells:400");
   const auto usual = scene_of(cloud, {});
   cloud.gaussians[7].position = glm::vec3(1e6F, -1e6F, 1e6F);  // one that went astray

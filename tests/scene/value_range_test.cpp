@@ -99,7 +99,7 @@ volume::Volume values_of(double low, double high, std::initializer_list<double> 
   });
 }
 
-TEST(ValueRange, CtsAreToldFromOtherScans) {
+TEST(ValueRange, CtsAreDistinguishedFromOtherScans) {
   const struct {
     const char* what;
     volume::Volume volume;

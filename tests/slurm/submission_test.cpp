@@ -75,7 +75,7 @@ TEST(JobArrays, RangesAreShort) {
   EXPECT_EQ(index_ranges({0, 1, 2, 5, 7, 8}), "0-2,5,7-8");
 }
 
-TEST(JobArrays, NamesOfJobsTellPlansAndFoldersApart) {
+TEST(JobArrays, NamesOfJobsDifferByPlanAndFolder) {
   const auto name = job_name("7 bits: head/ü", "0123", "/data/results");
   EXPECT_TRUE(std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '-' || c == '_';
@@ -85,7 +85,7 @@ TEST(JobArrays, NamesOfJobsTellPlansAndFoldersApart) {
   EXPECT_NE(name, job_name("7 bits: head/ü", "0123", "/data/other"));
 }
 
-TEST(SlurmScript, SaysWhatSlurmIsTold) {
+TEST(SlurmScript, PrintsTheSlurmScript) {
   auto s = submission(2500, 1001);
   s.partition = "long";
   s.time = "1:30:00";
@@ -109,7 +109,7 @@ TEST(SlurmScript, SaysWhatSlurmIsTold) {
   EXPECT_LT(script.rfind("#SBATCH"), script.find("\nfor "));
 }
 
-TEST(ScriptEngines, LsfAndSgeAreToldTheSame) {
+TEST(ScriptEngines, LsfAndSgeGetTheSameRequests) {
   auto s = submission(1500, 1000);
   s.partition = "long";
   s.time = "90:30";  // minutes and seconds

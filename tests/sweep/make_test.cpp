@@ -53,7 +53,7 @@ TEST(PlanMake, ComparesWithOneGoldenPictureOfAScene) {
                 golden + " model.exr --min-psnr 48");
 }
 
-TEST(PlanMake, NamesAreStableAndTellEverythingApart) {
+TEST(PlanMake, NamesAreStableAndUnique) {
   const Folder folder;
   const auto ids = [&](const std::string& spec) {
     std::set<std::string> out;

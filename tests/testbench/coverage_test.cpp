@@ -105,7 +105,7 @@ TEST(Coverage, MergesAndAddsUp) {
   EXPECT_EQ(a.bins().size(), 2u);
 }
 
-TEST(Coverage, OfARoundingTellsExactTieAndSides) {
+TEST(Coverage, RoundingDistinguishesExactTieAndSides) {
   Coverage coverage;
   const cmodel::Format format{0, 20, 0, 0};
   const RoundingPoint point(coverage, "g", "p_", {cmodel::Rounding::RND, cmodel::Overflow::SAT, 2, format}, 100);

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kVerb = "plan";
+constexpr const char* kSubcommand = "plan";
 constexpr std::size_t kMostMergedBytes = std::size_t{1} << 30;
 
 Json to_json(const Metric& metric) {
@@ -54,7 +54,7 @@ Row row_from(const Json& json) {
 }
 
 Merged merged_from(const Json& json) {
-  if (json.at("verb") != kVerb) throw std::runtime_error("written by another subcommand");
+  if (json.at("verb") != kSubcommand) throw std::runtime_error("written by another subcommand");
   Merged merged{.name = json.at("name"),
                 .title = json.at("title"),
                 .hash = json.at("hash"),
@@ -91,7 +91,7 @@ std::optional<double> Row::metric(const std::string& name) const {
 }
 
 Json to_json(const Merged& merged) {
-  Json json{{"verb", kVerb},         {"version", program_version()}, {"name", merged.name},
+  Json json{{"verb", kSubcommand},   {"version", program_version()}, {"name", merged.name},
             {"title", merged.title}, {"hash", merged.hash},          {"program", merged.program}};
   json["axes"] = Json::array();
   for (const Axis& axis : merged.axes) {

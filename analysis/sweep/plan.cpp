@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kMakeVerb = "plan make";
+constexpr const char* kMakeSubcommand = "plan make";
 constexpr std::size_t kMostPlanBytes = std::size_t{1} << 30;
 
 Json to_json(const Settings& settings) {
@@ -113,7 +113,7 @@ std::string hash_of(const Json& json) {
 }
 
 Plan plan_from(const Json& json) {
-  if (json.at("verb") != kMakeVerb) throw std::runtime_error("written by another subcommand");
+  if (json.at("verb") != kMakeSubcommand) throw std::runtime_error("written by another subcommand");
   Plan plan{.name = json.at("name"),
             .title = json.at("title"),
             .hash = json.at("hash"),
@@ -166,8 +166,11 @@ std::string id_of(const Case& one) {
 }
 
 Json to_json(const Plan& plan) {
-  Json json{
-      {"verb", kMakeVerb}, {"version", program_version()}, {"name", plan.name}, {"title", plan.title}, {"hash", ""}};
+  Json json{{"verb", kMakeSubcommand},
+            {"version", program_version()},
+            {"name", plan.name},
+            {"title", plan.title},
+            {"hash", ""}};
   json["axes"] = Json::array();
   for (const Axis& axis : plan.axes) json["axes"].push_back(to_json(axis));
   json["metrics"] = Json::array();

@@ -18,7 +18,7 @@ namespace fastsplat::driver {
 struct TileGrid {
   int image_width = 0, image_height = 0, tile_width = 0, tile_height = 0;
 
-  /// `rim`: the halo, pixels on each side of the picture's tile that the device's tile also holds.
+  /// `halo`: pixels on each side of the picture's tile that the device's tile also holds.
   TileGrid(const cmodel::Config& config, int width, int height, int halo = 0)
       : image_width(width),
         image_height(height),
@@ -63,7 +63,7 @@ struct Extent {
   std::int32_t x0 = 0, x1 = 0, y0 = 0, y1 = 0, window_end = 0;
 };
 
-/// `e` grown by `rim` pixels on each side.
+/// `e` grown by `halo` pixels on each side.
 inline Extent widened(const Extent& e, int halo) {
   return {e.x0 - halo, e.x1 + halo, e.y0 - halo, e.y1 + halo, e.window_end + halo};
 }

@@ -22,7 +22,7 @@ nlohmann::json result_of(const TempFolder& folder, std::vector<std::string> argu
   return nlohmann::json::parse(read_bytes(folder / "result.json"), nullptr, false);
 }
 
-TEST(ForeignBytes, NamesOfFilesComeThroughEveryVerb) {
+TEST(ForeignBytes, NamesOfFilesComeThroughEverySubcommand) {
   const TempFolder folder;
   const std::string volume = folder / (kName + ".nrrd"), picture = folder / (kName + ".png"),
                     stream = folder / (kName + ".fss");

@@ -116,7 +116,7 @@ class OwnInput : public ::testing::Test {
                     result_ = folder_ / "result.json", plan_ = folder_ / "plan.json";
 };
 
-TEST_F(OwnInput, IsReplacedByNoVerb) {
+TEST_F(OwnInput, IsReplacedByNoSubcommand) {
   for (const auto& danger : dangers()) expect_untouched(danger);
   std::printf("[figure] commands refused = %zu\n", dangers().size());
 }

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"--xray-invert", "writes no picture"}}));
 
 INSTANTIATE_TEST_SUITE_P(
-    OtherVerbs, Usage,
+    OtherSubcommands, Usage,
     ::testing::Values(
         Misuse{"cycles_background",
                {"cycles", "--volume", "shells:8", "--background", "1,1,1"},

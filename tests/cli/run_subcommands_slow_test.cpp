@@ -88,7 +88,7 @@ std::vector<std::pair<std::string, std::string>> listed(const Tree& tree) {
   return subcommands;
 }
 
-TEST(RunVerbs, EachPrintsItsHelpAndBuildsNothing) {
+TEST(RunCommands, EachPrintsItsHelpAndBuildsNothing) {
   const Tree tree;
   const auto subcommands = listed(tree);
   for (const auto& [subcommand, line] : subcommands) {
@@ -107,7 +107,7 @@ TEST(RunVerbs, EachPrintsItsHelpAndBuildsNothing) {
   EXPECT_EQ(subcommands.size(), 5U);
 }
 
-TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
+TEST(RunCommands, EachToolPrintsItsHelpAndIsListed) {
   const Tree tree;
   const std::string page = read_bytes(tree / "tools/README.md");
   int tools = 0;
@@ -127,7 +127,7 @@ TEST(RunVerbs, EachToolPrintsItsHelpAndIsListed) {
   EXPECT_GT(tools, 9);
 }
 
-TEST(RunVerbs, TheScriptHasThoseThatItLists) {
+TEST(RunCommands, TheScriptHasThoseThatItLists) {
   const Tree tree;
   std::set<std::string> shown, had;
   for (const auto& [subcommand, line] : listed(tree)) shown.insert(subcommand);
@@ -139,13 +139,13 @@ TEST(RunVerbs, TheScriptHasThoseThatItLists) {
   EXPECT_EQ(shown, had);
 }
 
-TEST(RunVerbs, HelpBehindOtherArgumentsIsHelp) {
+TEST(RunCommands, HelpBehindOtherArgumentsIsHelp) {
   const Tree tree;
   EXPECT_EQ(tree.run({"test", "-L", "fast", "-h"}).out, tree.run({"test", "--help"}).out);
   tree.expect_untouched();
 }
 
-TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
+TEST(RunCommands, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
   const Tree tree;
   const std::vector<std::pair<Words, Words>> wrong{
       {{"nosuch"}, {"command 'nosuch'", "./run help"}},
@@ -186,7 +186,7 @@ TEST(RunVerbs, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
 }
 
 // Those that are known get as far as the packages, of which there are none here.
-TEST(RunVerbs, WhatIsKnownGoesOn) {
+TEST(RunCommands, WhatIsKnownGoesOn) {
   const std::vector<Words> right{{"test", "-L", "fast", "-R", "Name", "-j2", "--timeout=9", "-VV"},
                                  {"bench", "--benchmark_filter=rtl"},
                                  {"netlist", "small", "cull"},
@@ -232,7 +232,7 @@ cd "$2" && sh ./configure)");
   fs::remove(tree / "stubs/ninja");  // the system's own
 }
 
-TEST(RunVerbs, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
+TEST(RunCommands, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
   const Tree tree;
   put_build(tree);
   expect_success(tree.run({"build", "-j1", "one"}));

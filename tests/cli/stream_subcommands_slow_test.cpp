@@ -14,7 +14,7 @@
 namespace fastsplat::cli_test {
 namespace {
 
-class StreamVerbs : public ::testing::Test {
+class StreamSubcommands : public ::testing::Test {
  protected:
   void SetUp() override {
     expect_success(
@@ -25,7 +25,7 @@ class StreamVerbs : public ::testing::Test {
 };
 
 // Nobody writes to it: whoever opens it to read would wait for ever.
-TEST_F(StreamVerbs, APipeIsNoFile) {
+TEST_F(StreamSubcommands, APipeIsNoFile) {
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::vector<std::vector<std::string>> commands{
@@ -60,7 +60,7 @@ TEST_F(StreamVerbs, APipeIsNoFile) {
 }
 
 // S-reader-3.
-TEST_F(StreamVerbs, ADumpPrintsTheBeatsAndThenTheError) {
+TEST_F(StreamSubcommands, ADumpPrintsTheBeatsAndThenTheError) {
   const auto whole = read_bytes(stream_);
   const auto good = fastsplat({"stream", "dump", stream_});
   expect_success(good);
@@ -87,7 +87,7 @@ TEST_F(StreamVerbs, ADumpPrintsTheBeatsAndThenTheError) {
 }
 
 // A text file is reported as "no stream", not as a stream that ends too early (S-reader-1, S-reader-3).
-TEST_F(StreamVerbs, FilesThatAreNotStreamsAreRefused) {
+TEST_F(StreamSubcommands, FilesThatAreNotStreamsAreRefused) {
   const auto whole = read_bytes(stream_);
   std::string other_magic = whole;
   other_magic[4] = 'X';
@@ -108,7 +108,7 @@ TEST_F(StreamVerbs, FilesThatAreNotStreamsAreRefused) {
   std::printf("[figure] times refused as not a stream = %d\n", refused);
 }
 
-TEST_F(StreamVerbs, VerifyNamesTheFile) {
+TEST_F(StreamSubcommands, VerifyNamesTheFile) {
   auto bytes = read_bytes(stream_);
   const auto cut = folder_.write("cut.fss", bytes.substr(0, bytes.size() - cmodel::kBeatBytes));
   bytes[cmodel::kBeatBytes * 2] = '\x7f';
@@ -123,7 +123,7 @@ TEST_F(StreamVerbs, VerifyNamesTheFile) {
 
 // A hole in the picture is one to every subcommand that reads a stream file (S-file-1); as tiles alone the device takes
 // it.
-TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
+TEST_F(StreamSubcommands, TilesCoverTheImageForEverySubcommand) {
   const auto config = driver::load_config("tiny");
   std::vector<cmodel::Beat> beats;
   driver::read_beats(stream_, [&](auto part) { beats.insert(beats.end(), part.begin(), part.end()); });
@@ -147,7 +147,7 @@ TEST_F(StreamVerbs, TilesCoverTheImageForEveryVerb) {
   }
 }
 
-TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
+TEST_F(StreamSubcommands, AResetBehindTheEndIsRefused) {
   const auto run = fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(run.code, 2) << run.out << run.err;
   EXPECT_NE(run.err.find("the stream ends before this beat"), std::string::npos) << run.err;
@@ -162,13 +162,13 @@ TEST_F(StreamVerbs, AResetBehindTheEndIsRefused) {
 }
 
 // S-file-3.
-TEST_F(StreamVerbs, TheLimitOfARecordingIsSaidBeforeTheWork) {
+TEST_F(StreamSubcommands, TheLimitOfARecordingIsSaidBeforeTheWork) {
   expect_error(
       fastsplat({"stream", "record", "--volume", "/nonexistent.nrrd", "--size", "9000", "-o", folder_ / "b.fss"}), 2,
       {"--size", "67108864", "smaller"});
 }
 
-TEST_F(StreamVerbs, AConfigurationWithoutRtlIsRefused) {
+TEST_F(StreamSubcommands, AConfigurationWithoutRtlIsRefused) {
   const auto check = [&](const std::vector<std::string>& changes) {
     std::vector<std::string> words{"config", "check", "tiny", "--json", folder_ / "c.json"};
     words.insert(words.end(), changes.begin(), changes.end());
@@ -184,14 +184,14 @@ TEST_F(StreamVerbs, AConfigurationWithoutRtlIsRefused) {
   EXPECT_FALSE(nlohmann::json::parse(read_bytes(folder_ / "c.json")).at("rtl").get<bool>());
 }
 
-TEST_F(StreamVerbs, VerifyAdvisesNoFlagThatItHasNot) {
+TEST_F(StreamSubcommands, VerifyAdvisesNoFlagThatItHasNot) {
   const auto run = fastsplat({"verify", "--random", "9", "--config", "tiny", "--set", "snap.phases=1"});
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.err.find("the RTL needs a phase bit"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("--engine"), std::string::npos) << run.err;
 }
 
-TEST_F(StreamVerbs, ThePatternIsCalledWhatItDoes) {
+TEST_F(StreamSubcommands, ThePatternIsCalledWhatItDoes) {
   expect_error(fastsplat({"cycles", "--stream", stream_, "--config", "tiny", "--ready", "never-5"}), 2,
                {"never-5", "alternate-5"});
   expect_success(fastsplat({"cycles", "--stream", stream_, "--config", "tiny", "--ready", "alternate-5"}));

@@ -29,7 +29,7 @@ void expect_warned(const Result& result, const Words& said) {
   for (const auto& words : said) EXPECT_NE(result.err.find(words), std::string::npos) << words << " in " << result.err;
 }
 
-TEST(VolumeVerbs, NanAsIsTakenWhereverVolumesAreRead) {
+TEST(VolumeSubcommands, NanAsIsTakenWhereverVolumesAreRead) {
   const TempFolder folder;
   const auto path = folder.write("holes.nrrd", with_holes());
   const std::string scene = folder / "scene.toml";
@@ -67,7 +67,7 @@ TEST(VolumeVerbs, NanAsIsTakenWhereverVolumesAreRead) {
   expect_error(fastsplat({"volume", "info", path, "--nan-as", "1e39"}), 2, {"--nan-as"});
 }
 
-TEST(VolumeVerbs, AConstantVolumeIsSaid) {
+TEST(VolumeSubcommands, AConstantVolumeIsSaid) {
   const TempFolder folder;
   const auto path = folder.write(
       "flat.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n0 0 0 0 0 0 0 0\n");
@@ -84,7 +84,7 @@ TEST(VolumeVerbs, AConstantVolumeIsSaid) {
   EXPECT_EQ(fastsplat({"volume", "info", "constant:4"}).err, "");  // built to be constant
 }
 
-TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
+TEST(VolumeSubcommands, SpacingsThatAreNoLengthsAreSaid) {
   const TempFolder folder;
   expect_success(fastsplat({"volume", "convert", "shells:4", folder / "v.nii"}));
   const std::string whole = read_bytes(folder / "v.nii");
@@ -105,7 +105,7 @@ TEST(VolumeVerbs, SpacingsThatAreNoLengthsAreSaid) {
   std::printf("[figure] spacings_said = %d\n", said + 1);
 }
 
-TEST(VolumeVerbs, ANameWithALineEndIsOneLine) {
+TEST(VolumeSubcommands, ANameWithALineEndIsOneLine) {
   const TempFolder folder;
   const auto path = folder.write(
       "a\nb.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n1 2 3 4 5 6 7 8\n");
@@ -118,7 +118,7 @@ TEST(VolumeVerbs, ANameWithALineEndIsOneLine) {
   }
 }
 
-TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
+TEST(VolumeSubcommands, InfoSaysWhichValuesShowSomething) {
   const TempFolder folder;
   std::string header = "NRRD0004\ntype: short\ndimension: 3\nsizes: 10 10 10\nencoding: ascii\n\n", numbers;
   for (int i = 0; i < 1000; ++i) numbers += std::to_string(i < 600 ? -1000 : i - 600) + "\n";  // 600 of air, 0..399
@@ -139,7 +139,7 @@ TEST(VolumeVerbs, InfoSaysWhichValuesShowSomething) {
   EXPECT_EQ(voxels, 1000U);
 }
 
-TEST(VolumeVerbs, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
+TEST(VolumeSubcommands, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
   const TempFolder folder;
   const std::string bytes = folder / "bytes.nrrd";
   expect_success(fastsplat({"volume", "convert", "shells:8", bytes}));
@@ -151,7 +151,7 @@ TEST(VolumeVerbs, PresetsInHounsfieldUnitsSayWhenTheValuesAreNot) {
   EXPECT_EQ(render("shells:8", "bone").err.find("Hounsfield"), std::string::npos);  // built in: no unit
 }
 
-TEST(VolumeVerbs, InfoSaysHowAScanLies) {
+TEST(VolumeSubcommands, InfoSaysHowAScanLies) {
   const TempFolder folder;
   const auto path = folder.write("pitched.mha",
                                  "NDims = 3\nDimSize = 2 2 2\nTransformMatrix = -1 0 0 0 -0.8 0.6 0 0.6 0.8\n"

@@ -39,7 +39,7 @@ set(fastsplat_longer_tests
   driver.Budget.fine_errs_less_than_base_from_far_and_near
   driver.CulledFrames.AreTheFramesWithout
   driver.CulledFrames.CostNextToNothingWhereNothingHides
-  driver.CulledFrames.CycleModelCountsWhatTheModelCounts
+  driver.CulledFrames.CycleModelCountsAsTheModel
   driver.DriverOracle.EveryBeatOfEveryConfigurationMethodAndProjection
   driver.EllipseOracle.EveryBeatOfEveryTechniqueAndMethod
   driver.EllipseOracle.EveryBeatOfRandomConfigurations
@@ -62,8 +62,8 @@ set(fastsplat_longer_tests
   driver.RoundingCarry.DoesNotDependOnThreads
   driver.TexturedOnDevice.PerspectiveHasPicturesOfSeveralRadii
   driver.TexturedOnDevice.TheMorePlacesTheNearerToGolden
-  driver.TexturedOnDevice.WhatADeviceCannotIsRefused
-  driver.View.FitContentFillsThePictureWithWhatIsNotEmpty
+  driver.TexturedOnDevice.UnsupportedPatternsAreRefused
+  driver.View.FitContentFillsThePictureWithTheContent
   errors.Ranges.OfAFrameSaturateAsOftenAsTheDeviceCounts
   fetch.FetchedDevice.DrawsTheModelsPictureFromAnyMemory
   golden.Antialias.PixelsBeforeTheCrossoverKeepEveryBit
@@ -81,7 +81,7 @@ set(fastsplat_longer_tests
   golden.Popping.RayCasterDoesNotPop
   golden.PostClassified.NormalsOfABall
   golden.PostClassified.VoxelsThatCannotMatterAreNotSplatted
-  golden.SolidTexture.AmplitudeZeroIsNoTexture
+  golden.SolidTexture.AmplitudeZeroMeansWithoutTexture
   golden.TexturedSplats.AmplitudeZeroIsOffToTheLastBit
   golden.TexturedSplats.AnyNumberOfThreadsGivesTheSameBits
   golden.TexturedSplats.MeanOverTheCycleIsThePlainSplat
@@ -89,7 +89,7 @@ set(fastsplat_longer_tests
   golden.XRay.ManySheetsInAWideImage
   mustfail.Culling.EachEventHappensInItsCycle
   mustfail.Culling.RandomStreamsOfEveryClass
-  mustfail.Culling.RefusesWhatTheModelRefuses
+  mustfail.Culling.RefusesTheSameConfigurationsAsTheModel
   mustfail.EllipseFrames.TheDeviceEqualsTheModel
   mustfail.EverySample.EachEventHappensInItsCycle
   mustfail.EverySample.RandomStreamsOfEveryClass
@@ -100,7 +100,7 @@ set(fastsplat_longer_tests
   mustfail.PostClassified.EachEventHappensInItsCycle
   mustfail.PostClassified.FramesEqualTheModel
   mustfail.PostClassified.RandomStreamsOfEveryClass
-  mustfail.PostClassified.RefusesWhatTheModelRefuses
+  mustfail.PostClassified.RefusesTheSameConfigurationsAsTheModel
   pipeline.Chain.AllDeviceIsTheIntegerModelBitForBit
   pipeline.Chain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
   pipeline.Chain.EverySampleAllDeviceIsTheIntegerModel

@@ -250,7 +250,8 @@ TEST(Architecture, EveryFileNamesItsLicenceAndAHeaderWhatItIsFor) {
     EXPECT_TRUE(file.text.starts_with(licence)) << file.path << ": expected '" << licence << "' as its first line";
     if (!file.is_header()) continue;
     ++headers;
-    EXPECT_EQ(file.text.find("//", 1), licence.size()) << file.path << ": expected its purpose in the line behind the licence";
+    EXPECT_EQ(file.text.find("//", 1), licence.size())
+        << file.path << ": expected its purpose in the line behind the licence";
   }
   figure("files", files);
   figure("headers", headers);
@@ -283,12 +284,12 @@ TEST(ArchitectureMustFail, ACircleOfArrowsIsSeen) {
   EXPECT_FALSE(all.at("d").contains("d"));
 }
 
-TEST(ArchitectureMustFail, AnIncludeInAngleBracketsIsNoEscape) {
+TEST(ArchitectureMustFail, AnIncludeInAngleBracketsIsSeen) {
   int checked = 0;
   EXPECT_EQ(arrow_offences({{"scene/bad.hpp", "#  include <golden/render.hpp>\n"}}, kArrows, checked).size(), 1u);
 }
 
-TEST(ArchitectureMustFail, ARelativeIncludeIsNoEscape) {
+TEST(ArchitectureMustFail, ARelativeIncludeIsSeen) {
   int checked = 0;
   EXPECT_EQ(arrow_offences({{"scene/bad.hpp", "#include \"../golden/render.hpp\"\n#include \"camera.hpp\"\n"}}, kArrows,
                            checked)
@@ -296,7 +297,7 @@ TEST(ArchitectureMustFail, ARelativeIncludeIsNoEscape) {
             2u);
 }
 
-TEST(ArchitectureMustFail, AnIncludeInACommentIsNoOffence) {
+TEST(ArchitectureMustFail, AnIncludeInACommentIsIgnored) {
   int checked = 0;
   EXPECT_TRUE(
       arrow_offences({{"cmodel/good.cpp", "/* \n#include \"scene/scene.hpp\"\n*/ // #include \"cli/output.hpp\"\n"}},
@@ -344,7 +345,7 @@ TEST(ArchitectureMustFail, DrawsWithoutAnOrderAreNamed) {
     EXPECT_TRUE(offences(good).empty()) << good;
 }
 
-TEST(ArchitectureMustFail, IntegersCommentsAndStringsAreNoOffence) {
+TEST(ArchitectureMustFail, IntegersCommentsAndStringsAreAllowed) {
   for (const std::string good :
        {"// a float, 1.5, std::thread", "/* double\n 2.5 */ int x = 0x1e5;", "auto s = \"float 1.5\";",
         "auto n = 1'000'000u;", "int floating = 0xFFu;", "char c = '\"'; int e = 10; // float",

@@ -97,7 +97,7 @@ TEST_F(AtomicFileTest, AFullDiskKeepsTheOldFile) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFileTest, AnInterruptRemovesWhatIsUnfinished) {
+TEST_F(AtomicFileTest, AnInterruptRemovesUnfinishedFiles) {
   AtomicFile file(folder_ / "file");
   EXPECT_EQ(files(), 1u);
   remove_unfinished_files();

@@ -24,12 +24,12 @@ TEST(Nesting, EveryWayToNestIsCounted) {
       many + "a = 1",
       "[" + many + "a]",
       "[[" + many + "a]]",
-      "\xc2\xa0[" + many + "a]",                                 // a blank that is not ASCII
-      "[" + half + "a]\n" + half + "a = 1",                      // a header and a key add up
-      half + "a = {" + half + "a = 1}",                          // so do a key and a table
-      "x = " + times(kMany, "[") + times(kMany, "]"),           
-      "x = " + times(kMany, "{a = ") + "1" + times(kMany, "}"), 
-      "x = [\"\"\"a\"\"\"\", {" + many + "a = 1}]",              // four quotes close a string
+      "\xc2\xa0[" + many + "a]",             // a blank that is not ASCII
+      "[" + half + "a]\n" + half + "a = 1",  // a header and a key add up
+      half + "a = {" + half + "a = 1}",      // so do a key and a table
+      "x = " + times(kMany, "[") + times(kMany, "]"),
+      "x = " + times(kMany, "{a = ") + "1" + times(kMany, "}"),
+      "x = [\"\"\"a\"\"\"\", {" + many + "a = 1}]",  // four quotes close a string
       "x = '''a''''\n" + many + "a = 1",
       "x = \"\\\"\"\n" + many + "a = 1",
       "x = '\\'\n" + many + "a = 1",
@@ -40,7 +40,7 @@ TEST(Nesting, EveryWayToNestIsCounted) {
   std::printf("[figure] TOML texts refused = %zu\n", deep.size());
 }
 
-TEST(Nesting, WhatOnlyLooksDeepIsNot) {
+TEST(Nesting, ShallowTextThatLooksDeepIsRead) {
   const std::string many = times(kMany, "a."), numbers = times(kMany, "1.5, ");
   const std::vector<std::string> flat{
       "x = [" + numbers + "2.5]",

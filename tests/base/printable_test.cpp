@@ -41,7 +41,7 @@ TEST(Printable, EveryPairOfBytesBecomesVisibleUtf8) {
   std::printf("[figure] pairs = %d\n", checked);
 }
 
-TEST(Printable, WhatTurnsOrEndsALineIsEscaped) {
+TEST(Printable, LineBreaksAndDirectionMarksAreEscaped) {
   EXPECT_EQ(printable("a\u202egnp.b"), "a\\xe2\\x80\\xaegnp.b");
   EXPECT_EQ(printable("a\u2028b\u2066c\u200fd"), "a\\xe2\\x80\\xa8b\\xe2\\x81\\xa6c\\xe2\\x80\\x8fd");
   EXPECT_EQ(printable("\u2026 \u2020 \u00d7"), "\u2026 \u2020 \u00d7");

@@ -33,7 +33,7 @@ TEST(Suggest, OffersTheNearestElseAll) {
   EXPECT_EQ(suggestion("something else", known), "known: bone, binary, x-ray");
 }
 
-TEST(Suggest, FarFetchedIsNoSuggestion) {
+TEST(Suggest, DistantNamesAreNotSuggested) {
   // What was answered: the words share a letter or two.
   const std::vector<std::string> presets = {"bone", "fire", "base", "linear"}, flags = {"--video", "--volume", "--tf"};
   for (const char* word : {"nope", "none", "mine", "vase-2"}) {
@@ -60,7 +60,7 @@ TEST(Suggest, AWordOfAMegabyteCostsNothing) {
   EXPECT_LT(seconds, 0.5);
 }
 
-TEST(Suggest, AShortNameIsNoSuggestionForAnything) {
+TEST(Suggest, ShortNamesAreNotSuggestedForEverything) {
   const std::vector<std::string> known = {"a", "radius"};  // "a" is within 3 edits of every short word
   EXPECT_EQ(suggestion("xyz", known), "known: a, radius");
 }

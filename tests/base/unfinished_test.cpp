@@ -68,7 +68,7 @@ pid_t writing_child(const fs::path& path) {
   }
 }
 
-TEST_F(Unfinished, ASignalEndsHelpersBeforeWhatTheyWriteIsRemoved) {
+TEST_F(Unfinished, ASignalEndsHelpersBeforeTheirFilesAreRemoved) {
   const pid_t child = writing_child(folder_ / "file");
   const UnfinishedPath file(folder_ / "file");
   {

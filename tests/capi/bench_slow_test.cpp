@@ -60,7 +60,7 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
 }
 
 /// A fault that there is not, or that this device has not: a pass would be of another device than was asked for.
-TEST(CapiBench, RefusesAFaultThatThereIsNot) {
+TEST(CapiBench, RefusesUnknownFaults) {
   for (const auto& [fault, why] : {std::pair{"999", "FAIL: no fault 999: 1 to "},
                                    {"abc", "FAIL: +fault: no number: abc"},
                                    {"1 2", "FAIL: +fault: no number: 1 2"},
@@ -74,7 +74,7 @@ TEST(CapiBench, RefusesAFaultThatThereIsNot) {
 }
 
 /// A line that is no beat: told, not left out with all behind it.
-TEST(CapiBench, RefusesALineThatIsNoBeat) {
+TEST(CapiBench, RefusesLinesThatAreNotBeats) {
   const cli_test::TempFolder folder;
   const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
   const std::string beat = whole.substr(0, 64);
@@ -118,7 +118,7 @@ TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   EXPECT_NE(wrong.out.find("first mismatch: verdict: expected tag"), std::string::npos);
 }
 
-TEST(CapiBench, SaysWhatThePageSays) {
+TEST(CapiBench, PrintsThePagesOutput) {
   const std::string page = cli_test::read_bytes(FASTSPLAT_SOURCE_DIR "/docs/capi.md");
   ASSERT_NE(page.find("stream record --volume shells:20 --size 44x40 --config tiny -o"), std::string::npos)
       << "recorded() is another scene's";
@@ -138,7 +138,7 @@ TEST(CapiBench, SaysWhatThePageSays) {
   EXPECT_EQ(lines, 3);
 }
 
-TEST(CapiBench, SaysWhyThereIsNoVerdict) {
+TEST(CapiBench, PrintsWhyTheVerdictIsMissing) {
   const cli_test::TempFolder folder;
   const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
   const std::string cut = folder.write("cut.hex", whole.substr(0, 20 * 65));  // 20 lines of 64 digits

@@ -69,7 +69,7 @@ fastsplat_checker_options with_verdicts() {
   return options;
 }
 
-TEST(CapiChecker, NamesWhatIsWrongFirst) {
+TEST(CapiChecker, NamesTheFirstDifference) {
   using testbench::RawPort;
   struct Case {
     const char* what;
@@ -174,7 +174,7 @@ TEST(CapiChecker, EveryPortOfTheMonitorIsCompared) {
   check_port(RawPort::Verdict, "verdict: expected none, RTL tag 7 hidden", [](auto&) {});
 }
 
-TEST(CapiChecker, WhatABenchDoesNotHaveIsNotCompared) {
+TEST(CapiChecker, PortsThatABenchLacksAreNotCompared) {
   const Config config("tiny");
   Truth wrong = truth_of("tiny");
   *event_at(wrong, testbench::RawPort::Pixels).tap.keep ^= 1;

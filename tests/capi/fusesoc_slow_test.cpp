@@ -11,7 +11,7 @@
 namespace fastsplat::test {
 namespace {
 
-TEST(CapiFusesoc, TheCoreNamesWhatIsThere) {
+TEST(CapiFusesoc, TheCoreNamesExistingFiles) {
   const std::string python = python_with("yaml");
   if (python.empty()) GTEST_SKIP() << "python3-yaml is not installed";
   const cli_test::TempFolder folder;

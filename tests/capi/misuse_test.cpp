@@ -115,7 +115,7 @@ TEST_F(CapiMisuse, NullIsRefusedEverywhere) {
   EXPECT_EQ(fastsplat_checker_destroy(nullptr), FASTSPLAT_OK);
 }
 
-TEST_F(CapiMisuse, HandlesThatAreNoneAreRefused) {
+TEST_F(CapiMisuse, InvalidHandlesAreRefused) {
   fastsplat_model* model = nullptr;
   ASSERT_EQ(fastsplat_model_create(config_.handle, FASTSPLAT_WHOLE, 0, &model), FASTSPLAT_OK);
   refused(fastsplat_config_destroy(reinterpret_cast<fastsplat_config*>(model)), "expected configuration, got model");

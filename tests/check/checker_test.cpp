@@ -121,7 +121,7 @@ Truth with(const Truth& truth, std::size_t event, Change change) {
   return wrong;
 }
 
-TEST_P(Checked, PassesWhatIsRight) {
+TEST_P(Checked, PassesACorrectDevice) {
   for (const auto which : testbench::stimulus_classes()) {
     const Truth right = truth(which, 60);
     const CheckReport report = check(right);
@@ -269,7 +269,7 @@ TEST_P(Checked, EveryWordOfThePixels) {
 }
 
 // After the last tile, where nothing is expected any more.
-TEST_P(Checked, WhatBelongsToNoTile) {
+TEST_P(Checked, TapsOutsideATile) {
   const Truth right = truth();
   for (const auto& [port, detector] : {std::pair{RawPort::Snap, Detector::Snap},
                                        {RawPort::Window, Detector::Footprint},

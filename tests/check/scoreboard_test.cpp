@@ -76,7 +76,7 @@ TEST(Scoreboard, ReportsEveryDifference) {
   std::printf("[figure] differences of a record = %zu, all seen\n", differences().size());
 }
 
-TEST(Scoreboard, SeesWhatIsTooMuchAndWhatNeverCame) {
+TEST(Scoreboard, SeesSurplusAndMissingTaps) {
   testbench::Scoreboard much, little;
   show(much.rtl(), sums());
   EXPECT_EQ(much.mismatches(), 1u);

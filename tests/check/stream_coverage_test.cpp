@@ -54,7 +54,7 @@ TEST(StreamCoverage, EllipsesAreSplatsToCullingHints) {
   EXPECT_EQ(hit("cull.", {sheet(0), kEllipse, kCull, kEnd}), "cull.after_all_splats");
 }
 
-TEST(StreamCoverage, SetsAreThoseOfTheSheetsCircles) {
+TEST(StreamCoverage, SetsAreTakenFromTheSheetsCircles) {
   const std::string other = "set.another_than_before";
   EXPECT_EQ(hit(other, {sheet(0), circle(0), kEllipse, circle(1), kEnd}), other);
   EXPECT_EQ(hit(other, {sheet(0), circle(0), circle(0), kEnd}), "");

@@ -133,7 +133,7 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
 }
 
 // M-port-9
-TEST_F(Verdicts, NoneOfADeviceThatDoesNotCull) {
+TEST_F(Verdicts, ADeviceWithoutCullingHasNoVerdicts) {
   cmodel::NullPixels pixels;
   testbench::Checker deaf(named_config("tiny"), cmodel::StreamScope::Whole, pixels);
   deaf.start(0);

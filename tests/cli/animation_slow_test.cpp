@@ -55,7 +55,7 @@ TEST(Animation, FramesEqualTheStillsOfEveryEngine) {
   ASSERT_EQ(compared, 24);
 }
 
-TEST(Animation, ASecondRunRendersOnlyWhatIsMissingTornOrStale) {
+TEST(Animation, ASecondRunRendersMissingTornAndStaleFramesOnly) {
   const TempFolder folder;
   const auto words = turning({"-o", folder / "f.#.exr", "-o", folder / "f.#.png", "--json", "-"});
   expect_success(fastsplat(words));

@@ -213,7 +213,7 @@ TEST_F(BadOutput, ClosedDescriptorsDoNotLeakIntoResults) {
   EXPECT_EQ(read_bytes(folder_ / "out.json").front(), '{');
 }
 
-TEST_F(BadOutput, AReaderThatLeavesIsNoError) {
+TEST_F(BadOutput, AClosedPipeIsNotAnError) {
   expect_success(fastsplat({"stream", "record", "--volume", "shells:32", "--size", "100", "-o", folder_ / "s.fss"}));
   Surroundings head;
   head.stop_reading_after = 100;

@@ -13,7 +13,7 @@ namespace {
 
 std::string text(const std::vector<std::string>& words) { return command_text(words); }
 
-TEST(Again, LeavesOutWhatChangesNoResult) {
+TEST(Again, OmitsFlagsThatDoNotChangeTheResult) {
   EXPECT_EQ(text({"compare", "a.exr", "b.exr", "--json", "c.json", "--min-psnr", "48", "--quiet"}),
             "fastsplat compare a.exr b.exr --min-psnr 48");
   EXPECT_EQ(text({"cycles", "--json=-", "--threads=2", "--volume", "shells:8", "--threads", "1"}),

@@ -88,7 +88,7 @@ TEST_F(ComparePictures, GreyAndOpaqueAlphaAreTheSameColours) {
   EXPECT_EQ(refused.err.find("same size"), std::string::npos) << refused.err;
 }
 
-TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
+TEST_F(ComparePictures, AnAllBlackPictureIsReported) {
   const auto dim = foreign("dim.png", ramp(3, 0.02f)), black = foreign("black.png", Image(16, 16, 3));
   const auto run = compare({dim, black, "--min-psnr", "30"});
   EXPECT_EQ(run.code, 0) << "far above the limit, and yet nothing: " << run.err;
@@ -104,7 +104,7 @@ TEST_F(ComparePictures, OneThatIsAllBlackIsSaid) {
             std::string::npos);
 }
 
-TEST_F(ComparePictures, WhatTheFilesDeclareMustAgree) {
+TEST_F(ComparePictures, DeclarationsOfTheFilesMustAgree) {
   const auto linear = declared_linear("linear.png", ramp(3, 1.0f)), plain = foreign("plain.png", ramp(3, 1.0f));
   expect_success(compare({linear, linear}));
   const auto mixed = compare({linear, plain});
@@ -124,7 +124,7 @@ TEST_F(ComparePictures, AlphaThatMultipliesAndAlphaThatDoesNotAreRefused) {
   expect_success(compare({theirs, theirs}));
 }
 
-TEST_F(ComparePictures, AnErrorThatNobodySeesIsSaid) {
+TEST_F(ComparePictures, AHiddenErrorIsReported) {
   Image a = ramp(4, 1.0f);
   a.data[3] = 0.0f;
   Image b = a;

@@ -29,7 +29,7 @@ TEST(ConfigFlags, TheNameIsInTheOrderOfTheKeysWhateverTheOrderOfTheFlags) {
   EXPECT_EQ(one, other);
 }
 
-TEST(ConfigFlags, AChangeToWhatItIsChangesNothing) {
+TEST(ConfigFlags, ASettingOfTheSameValueChangesNothing) {
   const auto base = driver::load_config("base");
   EXPECT_EQ(load("base", {"radial.entries=" + std::to_string(base.radial_entries)}), base);
   EXPECT_EQ(load(ConfigFlags{}), base);

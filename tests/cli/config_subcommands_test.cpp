@@ -67,7 +67,7 @@ TEST(ConfigDiff, ListsEveryKeyThatDiffersAndNoOther) {
 }
 
 // The names are different, the device is the same.
-TEST(ConfigDiff, ANameIsNoDifference) {
+TEST(ConfigDiff, ANameIsNotADifference) {
   const cli_test::TempFolder folder;
   auto config = driver::load_config("tiny");
   config.name = "mine";

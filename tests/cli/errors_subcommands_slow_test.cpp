@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 const Words kRanges{"errors", "ranges"}, kPropose{"errors", "propose", "--target", "psnr>=40"};
 
-TEST(ErrorsRanges, SaysWhatWouldDoAndAgreesWithTheDevicesCounters) {
+TEST(ErrorsRanges, SuggestsFormatsAndAgreesWithTheDevicesCounters) {
   const TempFolder folder;
   const auto result = fastsplat(with(kRanges, with(kSmall, {"--config", "tiny", "--json", folder / "r.json"})));
   expect_success(result);

@@ -48,7 +48,7 @@ TEST(ForeignBytes, NamesOfFilesComeThroughEverySubcommand) {
   EXPECT_GE(said, 6);
 }
 
-TEST(ForeignBytes, WhatAPictureCarriesComesThroughCompare) {
+TEST(ForeignBytes, MetadataOfAPictureComesThroughCompare) {
   const TempFolder folder;
   Image image(4, 4);
   for (const std::string ending : {".exr", ".tif", ".png"}) {

@@ -38,7 +38,7 @@ TEST(FrameNames, WithoutOneFittingRunAreRefusedWithAFix) {
   }
 }
 
-TEST(FrameNames, SayWhatIsNumbered) {
+TEST(FrameNames, NameTheNumberedItem) {
   try {
     FrameNames("s#.fss", 18, "stream");
     ADD_FAILURE();

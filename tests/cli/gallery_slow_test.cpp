@@ -77,7 +77,7 @@ std::vector<std::string> origin_of(const fs::path& png) {
 
 // A command or a built-in scene that was changed leaves its picture behind; the picture knows what it was made of.
 // Settings that are newer than the picture are at their default, or it would have been rendered again.
-TEST(Gallery, EveryCommandRunsAndIsWhatItsPictureWasMadeBy) {
+TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
   const TempFolder folder;
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
   const auto page = read_bytes(kRoot / "docs/gallery.md");

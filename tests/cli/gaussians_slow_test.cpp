@@ -56,7 +56,7 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
 }
 
 // Axis, anti-aliasing and colours as the header has them; --up counts before it.
-TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
+TEST(GaussiansRun, FollowsTheHeader) {
   const TempFolder folder;
   const std::string ply = read_bytes(kShells);
   const auto drawn = [&](const std::string& name, const std::string& comment, const std::vector<std::string>& more) {
@@ -87,7 +87,7 @@ TEST(GaussiansRun, FollowsWhatTheHeaderSays) {
   EXPECT_FALSE(same("linear.png", "plain.png"));
 }
 
-TEST(GaussiansRun, WhatIsDroppedIsAWarning) {
+TEST(GaussiansRun, DroppedRowsAreAWarning) {
   const TempFolder folder;
   std::string splat = read_bytes(kCloud);
   splat.replace(64, 4, "\xff\xff\xff\xff");

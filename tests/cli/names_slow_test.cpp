@@ -16,7 +16,7 @@ std::vector<std::string> still(const std::vector<std::string>& more) {
   return words;
 }
 
-TEST(Names, ANameThatIsNoneIsAWrongCommandLine) {
+TEST(Names, UnknownNamesAreUsageErrors) {
   const std::vector<std::vector<std::string>> commands{still({"--scene", "demo:nope"}),
                                                        still({"--tf", "nope"}),
                                                        still({"--volume", "nope"}),

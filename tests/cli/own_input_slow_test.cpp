@@ -149,7 +149,7 @@ TEST_F(OwnInput, UnderAnotherNameIsTheSameFile) {
 }
 
 // A name that is built in is no file, even where a file of that name is about to be.
-TEST_F(OwnInput, ABuiltInNameIsNoFile) {
+TEST_F(OwnInput, BuiltInNamesAreNotFiles) {
   Surroundings here;
   here.folder = folder_.path();
   expect_success(fastsplat({"config", "show", "tiny", "--json", "tiny"}, here));

@@ -226,7 +226,7 @@ void declare_everything(Options& options, Everything& to) {
   options.flag("--flag", to.flag, "");
 }
 
-TEST(Parse, WhatIsNotGivenKeepsItsDefault) {
+TEST(Parse, MissingFlagsKeepTheirDefaults) {
   const auto to = filled<Everything, declare_everything>({"verb", "a", "b"});
   EXPECT_EQ(to.first, "a");
   EXPECT_EQ(to.second, "b");

@@ -19,7 +19,7 @@ TEST(ReplayLine, NamesWhatDecidesTheRun) {
             "--reset-after 7");
 }
 
-TEST(ReplayLine, SaysWhatWasChangedAndBaseWhereNothingIsNamed) {
+TEST(ReplayLine, PrintsTheChangesAndBaseByDefault) {
   EXPECT_EQ(replay_line("a.fss", {.config = {}, .changes = {"radial.entries=256", "rlut.sets=8"}}, {}),
             "fastsplat verify --stream a.fss --config base --set radial.entries=256 --set rlut.sets=8 --ready always "
             "--input always --fill random --seed 1");

@@ -127,7 +127,7 @@ TEST(RunCommands, EachToolPrintsItsHelpAndIsListed) {
   EXPECT_GT(tools, 9);
 }
 
-TEST(RunCommands, TheScriptHasThoseThatItLists) {
+TEST(RunCommands, TheScriptHasTheCommandsThatItLists) {
   const Tree tree;
   std::set<std::string> shown, had;
   for (const auto& [subcommand, line] : listed(tree)) shown.insert(subcommand);
@@ -145,7 +145,7 @@ TEST(RunCommands, HelpBehindOtherArgumentsIsHelp) {
   tree.expect_untouched();
 }
 
-TEST(RunCommands, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
+TEST(RunCommands, UnknownCommandsAreRefusedAndNothingIsBuilt) {
   const Tree tree;
   const std::vector<std::pair<Words, Words>> wrong{
       {{"nosuch"}, {"command 'nosuch'", "./run help"}},
@@ -186,7 +186,7 @@ TEST(RunCommands, WhatIsNotKnownIsRefusedAndNothingIsBuilt) {
 }
 
 // Those that are known get as far as the packages, of which there are none here.
-TEST(RunCommands, WhatIsKnownGoesOn) {
+TEST(RunCommands, KnownCommandsAreRun) {
   const std::vector<Words> right{{"test", "-L", "fast", "-R", "Name", "-j2", "--timeout=9", "-VV"},
                                  {"bench", "--benchmark_filter=rtl"},
                                  {"netlist", "small", "cull"},
@@ -232,7 +232,7 @@ cd "$2" && sh ./configure)");
   fs::remove(tree / "stubs/ninja");  // the system's own
 }
 
-TEST(RunCommands, WhatIsNoTargetIsRefusedBeforeAnotherIsBuilt) {
+TEST(RunCommands, UnknownTargetsAreRefusedBeforeTheBuild) {
   const Tree tree;
   put_build(tree);
   expect_success(tree.run({"build", "-j1", "one"}));

@@ -25,7 +25,7 @@ class StreamSubcommands : public ::testing::Test {
 };
 
 // Nobody writes to it: whoever opens it to read would wait for ever.
-TEST_F(StreamSubcommands, APipeIsNoFile) {
+TEST_F(StreamSubcommands, PipesAreNotFiles) {
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::vector<std::vector<std::string>> commands{
@@ -162,7 +162,7 @@ TEST_F(StreamSubcommands, AResetBehindTheEndIsRefused) {
 }
 
 // S-file-3.
-TEST_F(StreamSubcommands, TheLimitOfARecordingIsSaidBeforeTheWork) {
+TEST_F(StreamSubcommands, TheLimitOfARecordingIsReportedBeforeTheWork) {
   expect_error(
       fastsplat({"stream", "record", "--volume", "/nonexistent.nrrd", "--size", "9000", "-o", folder_ / "b.fss"}), 2,
       {"--size", "67108864", "smaller"});

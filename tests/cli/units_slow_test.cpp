@@ -59,7 +59,7 @@ TEST(Units, GoldenDrawsTheSamePictureEitherWay) {
 }
 
 // cycles counts hidden splats as render does, and says what is odd about a volume, as verify does.
-TEST(Units, CyclesSaysWhatLayOnFrozenBlocks) {
+TEST(Units, CyclesPrintsTheSplatsOnTerminatedBlocks) {
   const TempFolder folder;
   const Words scene{"--volume", "binary-cube:32", "--tf", "ct-head", "--size", "64", "--config", "base"};
   const auto with = [&](Words words, const Words& more) {
@@ -100,7 +100,7 @@ TEST(Units, CyclesSaysWhatLayOnFrozenBlocks) {
   }
 }
 
-TEST(Units, ASumThatWasCutIsSaid) {
+TEST(Units, SaturatedSumsAreReported) {
   const TempFolder folder;
   // Every pixel with something in it is far above what the sheet holds: all tiles are the plain unit's.
   const Result cut = render(folder, "cut.exr",
@@ -109,7 +109,7 @@ TEST(Units, ASumThatWasCutIsSaid) {
   EXPECT_NE(cut.out.find("unit: plain, 1 tile: in each, a sum may have saturated"), std::string::npos) << cut.out;
 }
 
-TEST(Units, OpaqueIsNoLossWhereTheFormatEndsBelowOne) {
+TEST(Units, OpaqueIsNotALossWhereTheFormatEndsBelowOne) {
   const TempFolder folder;
   const Words opaque{"--engine", "cmodel", "--config", "tiny", "--opacity-scale", "30"};
   const Result still = render(folder, "opaque.exr", opaque);

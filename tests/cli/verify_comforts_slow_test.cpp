@@ -65,7 +65,7 @@ TEST_F(VerifyComforts, APlantedFaultIsInEveryFormat) {
   EXPECT_EQ(json_of("again.json").at("planted_fault").at("name"), "FORWARD_3");
 }
 
-TEST_F(VerifyComforts, AFaultThatNothingShowsIsNoPass) {
+TEST_F(VerifyComforts, AnUnseenFaultIsNotAPass) {
   // Memories that a reset does not wipe, where they are empty at power-up and nothing resets again.
   const auto run = verify({"--random", "60", "--class", "hazards", "--fill", "zero", "--fault", "MISSED_WIPE", "--json",
                            "result.json", "--junit", "result.xml"});

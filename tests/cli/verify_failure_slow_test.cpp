@@ -63,7 +63,7 @@ TEST_F(VerifyFailure, NamesThePixelAndNotTheWindow) {
   }
 }
 
-TEST_F(VerifyFailure, OfASceneCountsWhatRan) {
+TEST_F(VerifyFailure, OfASceneCountsTheWorkDone) {
   const auto run = verify({"--volume", "shells:16", "--size", "48", "--json", "result.json"}, here_);
   ASSERT_EQ(run.code, 1) << run.err;
   std::printf("[figure] splats of the scene before it was stopped = %llu\n",

@@ -132,7 +132,7 @@ TEST(Verify, ScenesFlagsBesideAStreamAreRefused) {
                {"--random", "a scene's flags", "--volume"});
 }
 
-TEST(Verify, ASceneOfWhichNothingReachesTheDeviceIsNoPass) {
+TEST(Verify, ASceneWithoutSplatsOnTheDeviceIsNotAPass) {
   // tiny's colour words are too short for the automatic exposure of an X-ray: every voxel rounds to nothing.
   const auto verify = [](const std::string& exposure) {
     return fastsplat({"verify", "--volume", "shells:64", "--size", "24", "--method", "xray", "--xray-exposure",

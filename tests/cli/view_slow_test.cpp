@@ -64,7 +64,7 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
   refused({"--fit", "contents"}, {"did you mean 'content'"});
 }
 
-TEST(ViewFlags, AFootprintUnderTwoPixelsIsSaid) {
+TEST(ViewFlags, AFootprintUnderTwoPixelsIsReported) {
   const Words small{"render", "--volume", "shells:32", "--size", "24", "--engine", "cmodel", "--json", "-"};
   const Result result = fastsplat(small);
   EXPECT_EQ(result.code, 0);

@@ -67,7 +67,7 @@ TEST(VolumeSubcommands, NanAsIsTakenWhereverVolumesAreRead) {
   expect_error(fastsplat({"volume", "info", path, "--nan-as", "1e39"}), 2, {"--nan-as"});
 }
 
-TEST(VolumeSubcommands, AConstantVolumeIsSaid) {
+TEST(VolumeSubcommands, AConstantVolumeIsReported) {
   const TempFolder folder;
   const auto path = folder.write(
       "flat.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n0 0 0 0 0 0 0 0\n");
@@ -84,7 +84,7 @@ TEST(VolumeSubcommands, AConstantVolumeIsSaid) {
   EXPECT_EQ(fastsplat({"volume", "info", "constant:4"}).err, "");  // built to be constant
 }
 
-TEST(VolumeSubcommands, SpacingsThatAreNoLengthsAreSaid) {
+TEST(VolumeSubcommands, InvalidSpacingsAreReported) {
   const TempFolder folder;
   expect_success(fastsplat({"volume", "convert", "shells:4", folder / "v.nii"}));
   const std::string whole = read_bytes(folder / "v.nii");

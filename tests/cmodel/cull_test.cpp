@@ -227,7 +227,7 @@ TEST(CullingRule, WordsOfTheTableAreModular) {
 }
 
 // N-2-8: with ellipses (M-cull-1).
-TEST(CullingRule, TheRtlHasNoneBesideEllipses) {
+TEST(CullingRule, TheRtlHasNoCullingWithEllipses) {
   for (const CullMap map : {CullMap::Off, CullMap::Block, CullMap::Pixel}) {
     EXPECT_FALSE(cmodel::rtl_violation(culling(named_config("tiny"), map)));
     const auto wrong = cmodel::rtl_violation(culling(named_config("ellipse"), map));

@@ -121,7 +121,7 @@ TEST_P(ClusterOf, OneDeviceIsTheCycleModel) {
   compared.figure(GetParam() + " counts of one device compared", 300);
 }
 
-TEST_P(ClusterOf, EachDeviceCountsWhatItWouldCountAloneOnItsTiles) {
+TEST_P(ClusterOf, EachDeviceCountsItsOwnTiles) {
   Random random(seed_or(72));
   Compared compared;
   std::uint64_t dealt = 0, most = 0;
@@ -153,7 +153,7 @@ TEST_P(ClusterOf, EachDeviceCountsWhatItWouldCountAloneOnItsTiles) {
   compared.figure(GetParam() + " counts of devices compared", 800);
 }
 
-TEST_P(ClusterOf, IsWhatTheClockedModelSays) {
+TEST_P(ClusterOf, EqualsTheClockedModel) {
   Random random(seed_or(73));
   Compared compared;
   std::uint64_t late = 0;
@@ -186,7 +186,7 @@ TEST_P(ClusterOf, IsWhatTheClockedModelSays) {
 INSTANTIATE_TEST_SUITE_P(Cycles, ClusterOf, ::testing::ValuesIn(config_names()),
                          [](const auto& name) { return name.param; });
 
-TEST(Cluster, ABeatACycleForEachDeviceIsNoLimit) {
+TEST(Cluster, ABeatACycleForEachDeviceIsNotALimit) {
   Random random(seed_or(74));
   Compared compared;
   const auto config = named_config("small");

@@ -151,7 +151,7 @@ TEST(EllipseRules, EachBrokenOnceIsRefusedUnderItsNumber) {
   EXPECT_EQ(refused, static_cast<int>(std::size(kBroken)));
 }
 
-TEST(EllipseRules, WhereItMayStandAndWhatCountsIt) {
+TEST(EllipseRules, PlaceAndCounters) {
   const cmodel::Config config = ellipse_config();
   // Where the configuration has none, its opcode is unknown (N-4.6-1, S-ellipse-1).
   const cmodel::Config none = ellipse_config(0);

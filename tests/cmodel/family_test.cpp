@@ -286,7 +286,7 @@ TEST(FamilySteps, EightfoldSymmetryReadsTheSameWeights) {
 
 // N-4.3-1, N-4.3-2.
 // S-table-5, S-table-4.
-TEST(FamilyStream, WhatIsNoEllipseIsRefused) {
+TEST(FamilyStream, InvalidEllipsesAreRefused) {
   cmodel::Config config = named_config("small");
   config.index_kind = static_cast<int>(IndexKind::SquaredElliptic);
   const auto line = [&](std::vector<std::uint32_t> words, std::uint32_t base = 0) -> std::string {

@@ -258,7 +258,7 @@ std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, 
 }
 
 // Sums behind frozen pixels change no picture, and still may leave the sheet's format or make an opacity above 1.0.
-TEST(FastUnit, WhatIsHiddenIsStillCounted) {
+TEST(FastUnit, HiddenSplatsAreCounted) {
   Tally all;
   for (const char* name : {"base", "compact", "exact", "small", "tiny"}) {
     const cmodel::Config config = named_config(name);

@@ -34,7 +34,7 @@ TEST(Records, ATableTakesTheBeatsThatItsHeaderAnnounces) {
   std::printf("[figure] tables whose beats were counted = %zu\n", words);
 }
 
-TEST(Records, HeadersKeepWhatTheyAreGiven) {
+TEST(Records, HeadersKeepTheirFields) {
   const auto frame =
       std::get<BeginFrame>(from_beat(beats_of(BeginFrame{0x0123456789abcdefU, 17, 65535, 0x89abcdefU})[0]));
   EXPECT_EQ(frame.config_hash, 0x0123456789abcdefU);

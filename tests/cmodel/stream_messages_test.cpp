@@ -51,7 +51,7 @@ std::vector<std::uint8_t> with(std::size_t beat, std::size_t word, std::uint32_t
   return bytes;
 }
 
-TEST(StreamMessages, SayWhatWouldHaveBeenRight) {
+TEST(StreamMessages, StateTheExpectedValue) {
   for (const Refused& refused : kRefused) {
     const Verdict verdict = model_verdict(small_stream_config(), with(refused.beat, refused.word, refused.value));
     ASSERT_TRUE(verdict.refused_at) << refused.name;
@@ -74,7 +74,7 @@ TEST(StreamMessages, TheLimitOfARadiusIsTheTrueOne) {
   EXPECT_EQ(at.text.find("radius too large"), std::string::npos) << at.text;
 }
 
-TEST(StreamMessages, ACutStreamSaysWhatIsMissing) {
+TEST(StreamMessages, ACutStreamNamesTheMissingPart) {
   const auto whole = small_stream();
   const std::pair<std::size_t, const char*> cuts[] = {{0, "begin_frame"},
                                                       {1, "load_table, begin_tile or end_frame"},

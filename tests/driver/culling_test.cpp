@@ -125,7 +125,7 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
 }
 
 /// What the cycle model counts of a scene, and the model.
-TEST(CulledFrames, CycleModelCountsWhatTheModelCounts) {
+TEST(CulledFrames, CycleModelCountsAsTheModel) {
   for (const auto& [name, description] : scenes()) {
     const auto scene = scene::build_scene(description);
     for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {

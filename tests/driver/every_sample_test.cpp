@@ -68,7 +68,7 @@ double mean_alpha(const cmodel::Frame& frame) {
 }
 
 // What a layer adds, a1 + a2, is more than what its samples leave, a1 + a2 (1 - a1): Westover's picture is thinner.
-TEST(EverySample, DimsWhatSheetsAdd) {
+TEST(EverySample, DimsTheSumsOfSheets) {
   auto description = westover("shells:24", 64);
   description.slab_opacity = scene::SlabOpacity::Additive;
   const auto config = sampling("base");

@@ -313,7 +313,7 @@ TEST(Gaussians, LongRowsAreCutInto32WindowsAtATime) {
 }
 
 // The device's work in its own unit: windows, of which one is begun a cycle but for what waits for a pixel.
-TEST(Gaussians, WindowsAreWhatTheRecordsSay) {
+TEST(Gaussians, WindowsEqualTheRecords) {
   const auto config = usual_config();
   const cmodel::EllipseUnit unit(config);
   for (const char* name : {"shells:2000", "cloud:3000"}) {
@@ -385,7 +385,7 @@ TEST(Gaussians, TilesHardlyShow) {
 }
 
 // N-8-83: what they need.
-TEST(Gaussians, WhatDoesNotFitIsCountedOrRefused) {
+TEST(Gaussians, ShapesThatDoNotFitAreCountedOrRefused) {
   const auto config = usual_config();
   for (const char* other : {"base", "ellipse"}) {
     try {

@@ -117,7 +117,7 @@ TEST_F(Oblique, APitchedScanStandsUprightInEveryMethodAndEngine) {
 }
 
 // N-8-4, N-8-7: the smaller cell.
-TEST_F(Oblique, AShearedScanIsDrawnAsItLiesAndSaid) {
+TEST_F(Oblique, AShearedScanIsDrawnInPlaceWithAWarning) {
   const glm::dmat3 tilted{{1, 0, 0}, {0, 1, 0}, {0, std::sin(kPitch), std::cos(kPitch)}};  // a CT's tilted gantry
   const auto straight = scanned(glm::dmat3(1.0), ".nii");
   const auto sheared = scanned(tilted, ".nii"), unheard = scanned(tilted, ".nii", false);

@@ -156,7 +156,7 @@ TEST(DriverOracle, EverySampleIsOfOneSheetInItsOrder) {
 
 // N-8-59, N-8-60: a flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the
 // splats behind.
-TEST(DriverOracle, WhatIsShownTooLongIsOwed) {
+TEST(DriverOracle, SurplusEnergyIsCarried) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
     auto config = load_config(name);

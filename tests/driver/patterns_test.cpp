@@ -140,8 +140,8 @@ TEST(PatternTables, StripesAreAsNearAsTheirNodesAllow) {
   }
 }
 
-// N-8-98, N-8-99, N-8-100: all that is seen lies between the nodes, and little else: a kernel's radius to each side, and
-// a tenth of the values.
+// N-8-98, N-8-99, N-8-100: all that is seen lies between the nodes, and little else: a kernel's radius to each side,
+// and a tenth of the values.
 TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
   for (const auto order : {scene::ClassifyOrder::Post, scene::ClassifyOrder::Pre}) {
     for (const bool perspective : {false, true}) {
@@ -178,7 +178,7 @@ TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
 
 // N-8-98, N-8-99: a haze that is not seen fills the volume, and in its middle is a cube that is: nodes lie about the
 // cube. A column more on each side is what a place is rounded outwards.
-TEST(PatternTables, NodesLieAboutWhatIsSeenInAHaze) {
+TEST(PatternTables, NodesLieAroundTheVisibleInAHaze) {
   auto description = with_texture(post_view(100), SolidKind::Marble, 6.0);
   auto scene = scene::build_scene(description,
                                   std::make_shared<const volume::Volume>(volume::make_volume(
@@ -330,7 +330,7 @@ TEST(PatternsOnDevice, ThreadsAndUnitsDrawTheSame) {
   EXPECT_GT(fast.units.fast, 0u) << "where it has vectors";
 }
 
-TEST(PatternsOnDevice, WhatADeviceCannotIsRefused) {
+TEST(PatternsOnDevice, UnsupportedPatternsAreRefused) {
   const auto refused = [](const SceneDescription& description, const cmodel::Config& config) -> std::string {
     try {
       CompiledFrame(scene::build_scene(description), config);

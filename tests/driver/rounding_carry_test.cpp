@@ -40,7 +40,7 @@ std::vector<std::uint32_t> words_of(const scene::Scene& scene, const cmodel::Con
 // N-8-59, N-8-60: a line's words as the sheets show them sum to what was asked, but for what is left at its end: less
 // than a word and what one word is shown too short or too long. The flat kernel in coarse sheets shows more than it was
 // asked.
-TEST(RoundingCarry, ALineShowsWhatWasAskedOfIt) {
+TEST(RoundingCarry, ALineShowsItsEnergy) {
   int lines = 0;
   double worst = 0.0, most_over = 0.0, most_under = 0.0;
   for (const auto& name : config_names()) {
@@ -112,7 +112,7 @@ TEST(RoundingCarry, DoesNotDependOnThreads) {
 }
 
 // The report says what vanished by what it had; carried, nothing is lost.
-TEST(RoundingCarry, TheReportSaysWhatVanished) {
+TEST(RoundingCarry, TheReportCountsVanishedSplats) {
   auto description = view_by(Method::XRay, "marschner-lobb:32");
   description.xray_exposure = 0.05;
   const auto scene = scene::build_scene(description);

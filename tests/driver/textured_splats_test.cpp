@@ -198,7 +198,7 @@ std::string refused(const scene::SceneDescription& description, const cmodel::Co
 }
 
 // N-4.4-7: only without symmetry; N-4.4-8: only with wi = 1.
-TEST(TexturedOnDevice, WhatADeviceCannotIsRefused) {
+TEST(TexturedOnDevice, UnsupportedPatternsAreRefused) {
   using ::testing::AllOf, ::testing::HasSubstr, ::testing::StartsWith;
   const auto description = flame(scene::Method::ImageAligned);
   EXPECT_THAT(refused(description, load_config("base")),

@@ -51,7 +51,7 @@ Edges empty_edges(const Image& image) {
 }
 
 // N-8-14, and N-8-15: rays of such a camera.
-TEST(View, FitContentFillsThePictureWithWhatIsNotEmpty) {
+TEST(View, FitContentFillsThePictureWithTheContent) {
   const auto volume = off_centre();
   int checked = 0;
   for (const bool perspective : {false, true}) {

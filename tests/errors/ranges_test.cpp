@@ -47,7 +47,7 @@ TEST(WideSum, CarriesAndBorrows) {
   EXPECT_EQ(one.low, (std::uint64_t{6} << 32) + 9);
 }
 
-TEST(Ranges, CountWhatIsLostByHand) {
+TEST(Ranges, CountLossesAsByHand) {
   // U 2.4 from 8 fraction bits, half up: 0x34 is 3 and a quarter, 0x38 a tie that goes up, 0x3F8 leaves the format.
   const Narrowing narrowing(Rounding::RND, Overflow::SAT, 8, cmodel::unsigned_format(2, 4));
   cmodel::Ranges a, b;

@@ -97,7 +97,7 @@ TEST_F(Keep, WithoutTheFlagNothingIs) {
   EXPECT_TRUE(kept().is_null());
 }
 
-TEST_F(Keep, AFindingStartsItsTargetAgainUntilARunHasNone) {
+TEST_F(Keep, AFindingRestartsItsTargetUntilARunIsClean) {
   fuzzer("one", fine(300, 40));
   fuzzer("two", fine(5, 70));
   EXPECT_EQ(run("--keep").second, 0);
@@ -121,7 +121,7 @@ TEST_F(Keep, ARunThatTriedNothingIsAFinding) {
   EXPECT_TRUE(kept()["one"].contains("finding"));
 }
 
-TEST_F(Keep, OneThatWasInterruptedKeepsWhatItHas) {
+TEST_F(Keep, AnInterruptedRunKeepsItsFindings) {
   fuzzer("one", fine(300, 40));
   EXPECT_EQ(run("--keep one").second, 0);
   fuzzer("one", "echo '==1== libFuzzer: run interrupted; exiting'; exit 72");

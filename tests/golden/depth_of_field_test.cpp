@@ -27,7 +27,7 @@ scene::Scene through_lens(scene::Scene scene, double aperture, double focus) {
   return scene;
 }
 
-TEST(DepthOfField, WhatIsInFocusKeepsEveryBit) {
+TEST(DepthOfField, PixelsInFocusKeepEveryBit) {
   const scene::Scene pinhole = make_scene(front_view());
   std::vector<scene::Splat> layer;
   for (const scene::Splat& splat : scene::collect_splats(pinhole)) {

@@ -222,7 +222,7 @@ class Books final : public Occlusion {
   std::vector<FrontToBack> before_;
 };
 
-TEST(FrameSweep, SplatsWhatOcclusionShowsAndReportsWhatChanged) {
+TEST(FrameSweep, SplatsTheVisibleAndReportsChanges) {
   const scene::Scene scene = make_scene(view());
   const std::vector<scene::Splat> splats = scene::collect_splats(scene);
   Books all(scene, splats, false);

@@ -131,7 +131,7 @@ TEST(GoldenGaussians, CrossingOnesAreInFrontWhereTheyAreNearer) {
   EXPECT_GT(half, 0.7F);
 }
 
-TEST(GoldenGaussians, WhatTheOrderOfCentresCosts) {
+TEST(GoldenGaussians, CostOfTheOrderOfCentres) {
   for (const char* name : {"shells:2000", "cloud:500"}) {
     auto description = view(256, scene::Projection::Perspective);
     description.camera.azimuth = 30.0, description.camera.elevation = 15.0;
@@ -156,7 +156,7 @@ TEST(GoldenGaussians, WhatTheOrderOfCentresCosts) {
 }
 
 // Opacity cut to 0.99 before it meets the kernel, not after: what that costs where every Gaussian is opaque.
-TEST(GoldenGaussians, WhatTheCapBeforeTheKernelCosts) {
+TEST(GoldenGaussians, CostOfTheCapBeforeTheKernel) {
   GaussianCloud cloud = scene::make_synthetic_gaussians("cloud:500");
   for (Gaussian& one : cloud.gaussians) one.opacity = 1.0F;
   const auto scene = scene_of(cloud, view(256, scene::Projection::Perspective));

@@ -124,7 +124,7 @@ TEST(OcclusionCulling, BlocksDoNotChangeTheOrder) {
 }
 
 // What looks around a pixel widens what must be opaque: a splat at `margin` pixels from an open half is kept.
-TEST(OcclusionCulling, AMarginKeepsTheSplatsBesideWhatIsOpen) {
+TEST(OcclusionCulling, AMarginKeepsTheSplatsBesideOpenPixels) {
   const scene::Scene scene = culled(opaque(), CullingMode::Splats);
   const std::vector<scene::Splat> splats = scene::collect_splats(scene);
   const KernelSlices slices = image_slabs(scene);

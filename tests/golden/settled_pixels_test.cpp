@@ -23,7 +23,7 @@ Stored stored(const FrontToBack& pixel) {
 }
 
 // Whatever lies behind: nothing, one opaque layer of the brightest or the darkest colour, thousands of thin ones.
-TEST(SettledPixels, NothingBehindChangesWhatIsStored) {
+TEST(SettledPixels, SplatsBehindDoNotChangeStoredPixels) {
   std::mt19937 random(9);
   const auto uniform = [&random](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
   int settled_ones = 0, open_ones = 0, changed = 0;

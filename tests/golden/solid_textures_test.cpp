@@ -126,7 +126,7 @@ DensityScene lit_ball() {
   return what;
 }
 
-TEST(SolidTexture, AmplitudeZeroIsNoTexture) {
+TEST(SolidTexture, AmplitudeZeroMeansWithoutTexture) {
   int compared = 0;
   for (const auto order : {ClassifyOrder::Pre, ClassifyOrder::Post}) {
     for (const auto where : {TextureWhere::Voxel, TextureWhere::Pixel}) {

@@ -237,7 +237,7 @@ TEST(TexturedSplats, AnyNumberOfThreadsGivesTheSameBits) {
   }
 }
 
-TEST(TexturedSplats, TheRayCasterHasNone) { EXPECT_THROW(textured(Method::RayCast, kTexture), UserError); }
+TEST(TexturedSplats, TheRayCasterHasNoTextures) { EXPECT_THROW(textured(Method::RayCast, kTexture), UserError); }
 
 }  // namespace
 }  // namespace fastsplat::golden::testing

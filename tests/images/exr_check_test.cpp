@@ -128,7 +128,7 @@ TEST(ExrHeader, EveryPartIsWalked) {
 }
 
 /// Attributes of all types that OpenImageIO can write, in files of one part, of tiles, and of two parts.
-TEST(ExrHeader, WhatOpenImageIoWritesPasses) {
+TEST(ExrHeader, FilesOfOpenImageIoPass) {
   const TempFolder folder;
   OIIO::ImageSpec spec(8, 8, 3, OIIO::TypeDesc::HALF);
   const std::vector<float> numbers(16, 0.5f);

@@ -184,7 +184,7 @@ TEST(ImageFile, DefaultsGoByExtension) {
   }
 }
 
-TEST(ImageFile, ReadsWhatOthersWrite) {
+TEST(ImageFile, ReadsFilesOfOtherPrograms) {
   const TempFolder folder;
   // Straight alpha, sRGB tag, metadata that is not ours: the samples as stored, nothing else.
   for (const std::string name : {"a.png", "a.tif"}) {
@@ -234,7 +234,7 @@ std::string read_refusal(const std::filesystem::path& path) {
   return refusal(ExitCode::Input, [&] { read_image(path); });
 }
 
-TEST(ImageFile, RefusesWhatItCannotMeasure) {
+TEST(ImageFile, RefusesPicturesThatItCannotMeasure) {
   const TempFolder folder;
   write_foreign(folder / "xyz.exr", [](auto& spec) {
     spec.nchannels = 3;
@@ -303,7 +303,7 @@ TEST(ImageFile, ReadsTiledFiles) {
   }
 }
 
-TEST(ImageFile, RefusesPathsThatAreNoImages) {
+TEST(ImageFile, RefusesPathsThatAreNotImages) {
   const TempFolder folder;
   EXPECT_THAT(read_refusal(folder / "missing.exr"), HasSubstr("missing.exr"));
   std::filesystem::create_directory(folder / "folder.exr");
@@ -321,7 +321,7 @@ TEST(ImageFile, RefusesPathsThatAreNoImages) {
   EXPECT_THAT(read_refusal("/dev/zero"), HasSubstr("/dev/zero"));
 }
 
-TEST(ImageFile, RefusesToWriteWhatTheFormatCannotHold) {
+TEST(ImageFile, RefusesToWriteValuesOutsideTheFormat) {
   const TempFolder folder;
   const Image image = random_image(4, 4, 4, 1);
   const auto write_refusal = [&](const char* name, WriteOptions options) {

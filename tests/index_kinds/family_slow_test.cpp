@@ -6,9 +6,9 @@
 #include <map>
 #include <sstream>
 
+#include "tests/paths.hpp"
 #include "tools/pages/family/family_page.hpp"
 #include "tools/pages/family/family_plots.hpp"
-#include "tests/paths.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -28,7 +28,7 @@ std::string head_of(const std::string& page) {
   return page.substr(from, page.find("\n## ", from) + 1 - from);
 }
 
-TEST(FamilyPage, IsWhatTheProgramSays) {
+TEST(FamilyPage, IsPrintedByTheProgram) {
   const std::string page = text_of("family.md"), head = head_of(page);
   EXPECT_GT(head.size(), 1000U);
   const auto cells = page_cells();

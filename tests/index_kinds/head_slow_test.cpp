@@ -6,16 +6,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "tools/pages/family/family_page.hpp"
 #include "analysis/index_kinds/head.hpp"
 #include "tests/paths.hpp"
+#include "tools/pages/family/family_page.hpp"
 
 namespace fastsplat::analysis {
 namespace {
 
 using cmodel::IndexKind;
 
-TEST(FamilyHead, ACellIsWhatThePageSays) {
+TEST(FamilyHead, ACellEqualsThePage) {
   const auto head = head_scene();
   if (!head.is_scan) GTEST_SKIP() << "the scan is not installed";
   std::ostringstream page;

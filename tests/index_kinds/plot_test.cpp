@@ -8,9 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tools/pages/family/family_plots.hpp"
 #include "tests/index_kinds/xml_helper.hpp"
 #include "tests/paths.hpp"
+#include "tools/pages/family/family_plots.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -67,7 +67,7 @@ TEST(Plot, AxesAreLogarithmic) {
   std::printf("[figure] a decade = %.1f pixels\n", line[1].first - line[0].first);
 }
 
-TEST(Plot, TheReaderSeesWhatIsNoXml) {
+TEST(Plot, TheReaderRejectsInvalidXml) {
   for (const char* text : {"<a><b></a></b>", "<a x=1/>", "<a>&nbsp;</a>", "<a/><b/>", "<a x=\"1\" x=\"2\"/>", "<a>"})
     EXPECT_THROW(parse_xml(text), std::runtime_error) << text;
 }

@@ -70,7 +70,7 @@ TEST(Culling, RandomStreamsOfEveryClass) {
 
 // Frames behind each other as well, whose sets are hidden, sent (M-cull-14) and left out (S-cull-9, S-cull-10,
 // M-cull-15); tiles that end while a table is built (M-cull-11).
-TEST(Culling, RefusesWhatTheModelRefuses) {
+TEST(Culling, RefusesTheSameConfigurationsAsTheModel) {
   const cmodel::Config config = culling();
   const auto result =
       testbench::check_refusals(config, [&](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {

@@ -187,7 +187,7 @@ TEST(DensityChain, StepsOfDensitiesAreListedForDensitiesOnly) {
   EXPECT_EQ(group_sets(false).size(), 5u);
 }
 
-TEST(DensityChain, WhatHasNoStepsIsRefused) {
+TEST(DensityChain, ScenesWithoutStepsAreRefused) {
   const auto refused = [](const scene::SceneDescription& description, const cmodel::Config& config,
                           const std::string& why) {
     const scene::Scene scene = scene::build_scene(description);

@@ -55,7 +55,7 @@ TEST_F(Pictures, RawWordsAndFloatsOfTheSameValuesAreOne) {
   EXPECT_FALSE(same_values(of_raw, of_float));
 }
 
-TEST_F(Pictures, ValuesThatAreNoWordsAreRoundedAndSaidToBe) {
+TEST_F(Pictures, ValuesBetweenWordsAreRoundedAndMarked) {
   Image image(4, 1, 1);
   image.data = {1.0f / 3.0f, -0.5f, 70000.0f, std::nanf("")};
   const auto picture = load_picture("golden", exr("f.exr", image));

@@ -123,7 +123,7 @@ TEST_F(Results, TheWorstIsTheReportsVerdict) {
   EXPECT_EQ(data["results"][0], kCompare) << "results go in as they are";
 }
 
-TEST_F(Results, WhatIsNoResultIsRefusedInOneLine) {
+TEST_F(Results, FilesThatAreNotResultsAreRefusedInOneLine) {
   expect_refused("", {"empty"});
   expect_refused("{\"verb\": \"compare\", ", {"truncated"});
   expect_refused("not json", {"not a result", "invalid JSON at byte 2"});

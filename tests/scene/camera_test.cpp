@@ -124,7 +124,7 @@ TEST(Camera, ZoomBringsTheEyeNearerAndKeepsTheFieldOfView) {
 }
 
 // The formulas that docs/guide/vtk.md gives, and N-8-10, N-8-12.
-TEST(Camera, IsWhatTheGuideSaysToAVtkCamera) {
+TEST(Camera, MatchesTheGuidesVtkCamera) {
   const double a = 37.0 * M_PI / 180.0, e = -21.0 * M_PI / 180.0, zoom = 1.7;
   const Camera camera = make({.azimuth = 37.0, .elevation = -21.0, .zoom = zoom});
   const glm::dvec3 d = -glm::dvec3(std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e));
@@ -137,7 +137,7 @@ TEST(Camera, IsWhatTheGuideSaysToAVtkCamera) {
   EXPECT_NEAR(camera.scale_at(0.0), s, 1e-12);
 }
 
-TEST(Camera, RefusesWhatMakesNoPicture) {
+TEST(Camera, RefusesViewsWithoutAPicture) {
   const auto message = [](CameraParams params, int width = 10, int height = 10) {
     return refusal([&] { make(params, width, height); }, ExitCode::Usage);
   };

@@ -94,7 +94,7 @@ TEST(Capability, RefusedCombinationsSayWhy) {
   EXPECT_EQ(refused, 10);
 }
 
-TEST(Capability, WhatGoesTogetherIsTaken) {
+TEST(Capability, CompatibleSettingsAreAccepted) {
   SceneDescription d = perspective();
   d.classify = ClassifyOrder::Post;
   d.footprint.antialias = true;
@@ -151,7 +151,7 @@ std::string said_of(const std::string& flag, const SceneDescription& start) {
   return refused ? one_line(*refused) : "";
 }
 
-TEST(Capability, WhatMeansNothingIsRefusedWithAWayOut) {
+TEST(Capability, SettingsWithoutEffectAreRefusedWithAFix) {
   struct Case {
     const char* flag;
     Method method;
@@ -254,7 +254,7 @@ TEST_F(IdleKeys, AreRefusedLikeTheirFlagsWithTheirPlace) {
   EXPECT_GE(checked, 100);
 }
 
-TEST_F(IdleKeys, AtTheirDefaultSayWhatHoldsAnyway) {
+TEST_F(IdleKeys, AtTheirDefaultAreAccepted) {
   std::string text = to_toml({});
   EXPECT_THAT(text, HasSubstr("aperture"));
   EXPECT_NO_THROW(load_scene_file(write("plain.toml", text)));

@@ -68,7 +68,7 @@ TEST(GaussianHints, VerticalAxis) {
   EXPECT_EQ(load_gaussians(file.path()).up, UpAxis::X);
 }
 
-TEST(GaussianHints, WhatIsNotFollowedIsSaid) {
+TEST(GaussianHints, IgnoredHintsAreReported) {
   const struct {
     std::vector<std::string> comments;
     const char* said;
@@ -216,7 +216,7 @@ TEST(GaussianProperties, RedGreenBlueAreColours) {
   EXPECT_THAT(read(twenty().and_of("red", 7.0).text("ascii")).remarks, ElementsAre());
 }
 
-TEST(GaussianProperties, UnknownOnesAreSaidAndNormalsAreNot) {
+TEST(GaussianProperties, UnknownOnesAreReportedAndNormalsAreNot) {
   EXPECT_THAT(read(twenty().text("ascii")).remarks, ElementsAre());
   EXPECT_THAT(read(twenty().and_of("motion_0", 1.0).and_of("trbf_center", 1.0).text("ascii")).remarks,
               ElementsAre(HasSubstr("not used: motion_0 trbf_center")));
@@ -229,7 +229,7 @@ TEST(GaussianProperties, UnknownOnesAreSaidAndNormalsAreNot) {
   EXPECT_THAT(read(moves).remarks, ElementsAre(HasSubstr("move")));
 }
 
-TEST(GaussianProperties, NumbersThatAreNoLogarithmsAreSaid) {
+TEST(GaussianProperties, ScalesThatAreNotLogarithmsAreReported) {
   PlyTable table = twenty();
   for (std::size_t row = 0; row < 20; ++row) {
     table = table.with("opacity", 0.5, row);
@@ -239,7 +239,7 @@ TEST(GaussianProperties, NumbersThatAreNoLogarithmsAreSaid) {
   EXPECT_THAT(read(table.with("opacity", 2.0).text("ascii")).remarks, ElementsAre());
 }
 
-TEST(GaussianProperties, WhatAFileIsInsteadIsSaid) {
+TEST(GaussianProperties, OtherKindsOfFilesAreNamed) {
   PlyTable cloud = twenty(), one_scale = twenty().without("scale_1").without("scale_2");
   for (const auto& name : twenty().names)
     if (name.size() > 1 && name != "nx") cloud = cloud.without(name);

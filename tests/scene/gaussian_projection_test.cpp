@@ -129,7 +129,7 @@ TEST(GaussianProjection, ColoursAreSeenFromTheEyeInTheFilesAxes) {
 }
 
 // N-8-82: nearest first.
-TEST(GaussianProjection, WhatIsBehindOrOutsideIsCulledAndTheRestSorted) {
+TEST(GaussianProjection, SplatsBehindOrOutsideAreCulledAndTheRestSorted) {
   GaussianCloud cloud = make_synthetic_gaussians("shells:400");
   const std::size_t usual = cloud.gaussians.size();
   GaussianDescription description = view(Projection::Perspective);

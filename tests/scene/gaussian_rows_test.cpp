@@ -125,7 +125,7 @@ TEST(GaussianRows, SplatFilesAsWell) {
   }
 }
 
-TEST(GaussianRows, NoneLeftIsRefused) {
+TEST(GaussianRows, FilesWithoutValidRowsAreRefused) {
   PlyTable table = twelve();
   for (std::size_t row = 0; row < 12; ++row) table = table.with("z", kInfinite, row);
   const TestFile file(".ply", table.text("binary_little_endian"));

@@ -126,7 +126,7 @@ TEST_F(SceneFile, RefusesWithLineColumnAndHint) {
   EXPECT_THAT(refused("[slabs]\nwidth = inf\n"), HasSubstr("out of range"));
 }
 
-TEST_F(SceneFile, WhatItNamesIsRefusedWithItsPlace) {
+TEST_F(SceneFile, InvalidReferencesAreRefusedWithTheirPlace) {
   const auto refused_later = [&](const std::string& text) {
     const SceneDescription d = load(text);
     try {

@@ -57,7 +57,7 @@ TEST(Sequence, AKernelsNumbersTakeOverFromItsName) {
   EXPECT_EQ(now.kernel_radius, 3.0);
 }
 
-TEST(Sequence, WhatHasNoTrackStaysAsItWas) {
+TEST(Sequence, PropertiesWithoutATrackStay) {
   SceneDescription still;
   still.volume = "point:5";
   still.camera.elevation = 77;
@@ -84,7 +84,7 @@ TEST_F(SequenceFile, IsReadFromASceneWhoseStillIgnoresIt) {
   EXPECT_EQ(load_scene_file(path).camera.azimuth, SceneDescription{}.camera.azimuth);
 }
 
-TEST_F(SequenceFile, WhatMakesNoSenseIsOneLineWithPlaceAndFix) {
+TEST_F(SequenceFile, ErrorsAreOneLineWithPlaceAndFix) {
   struct Bad {
     const char* table;
     std::vector<std::string> said;

@@ -84,7 +84,7 @@ TEST_F(SavedSettings, EveryOneComesBackFromItsFlagAndFromTheSavedScene) {
   EXPECT_GE(changes, 42);
 }
 
-TEST_F(SavedSettings, WhatMeansNothingIsNotSaved) {
+TEST_F(SavedSettings, SettingsWithoutEffectAreNotSaved) {
   SceneDescription d;
   d.footprint.texture.phases = 48;  // as demo:fire --splat-texture 0 leaves it
   EXPECT_THAT(to_toml(d), ::testing::Not(HasSubstr("phases")));

@@ -126,7 +126,7 @@ TEST(ValueRange, CtsAreDistinguishedFromOtherScans) {
   std::printf("[figure] kinds of scans = %zu\n", std::size(scans));
 }
 
-TEST(ValueRange, OtherScansAreStretchedAndThatIsSaid) {
+TEST(ValueRange, OtherScansAreStretchedWithANotice) {
   const TransferFunction bone = load_transfer_function("bone");
   const auto bytes = values_of(0, 200, {});
   EXPECT_NE(remark_on(bone, bytes).find("0 to 200 are not: they are mapped to -1000 to 3000 HU"), std::string::npos);
@@ -151,7 +151,7 @@ TEST(ValueRange, AirThatIsNotTheLeastValueIsBackground) {
   }
 }
 
-TEST(ValueRange, ABrightLevelOnTheFacesIsNoBackground) {
+TEST(ValueRange, ABrightLevelOnTheFacesIsNotTheBackground) {
   const auto negative = volume::make_volume({16, 16, 16}, glm::dvec3(1), VoxelType::U8, [](int i, int j, int k) {
     return glm::length(glm::dvec3(i, j, k) - 7.5) < 7 ? 20 + i : 200;
   });

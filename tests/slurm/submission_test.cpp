@@ -55,7 +55,7 @@ TEST(JobArrays, EveryShardIsOneTaskOfOneArrayWhateverTheLimit) {
   EXPECT_EQ(compared, 28);
 }
 
-TEST(JobArrays, WhatIsDoneIsNotSentAndNumbersStay) {
+TEST(JobArrays, FinishedCasesAreNotSentAndNumbersStay) {
   auto s = submission(10, 4);
   s.to_do = {2, 3, 10};
   const auto arrays = arrays_of(s);
@@ -196,7 +196,7 @@ TEST_F(Scripts, ATaskRunsItsShardInTheFolderOfTheCommand) {
   }
 }
 
-TEST_F(Scripts, TheCommandListNamesWhatIsToDo) {
+TEST_F(Scripts, TheCommandListNamesThePendingCases) {
   s_.to_do = {3, 5};
   const auto list = engine_scripts(s_).back().text;
   EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2);
@@ -213,7 +213,7 @@ TEST_F(Scripts, AMachineThatDoesNotSeeTheFoldersSaysSo) {
   EXPECT_EQ(said(), "");
 }
 
-TEST_F(Scripts, TheMergeNamesWhatIsLostAndKeepsItsExitCode) {
+TEST_F(Scripts, TheMergeNamesLostCasesAndKeepsItsExitCode) {
   for (const int code : {0, 1, 3}) {
     const auto ran = shell(slurm_merge_script(s_), {"MERGE=" + std::to_string(code)});
     EXPECT_EQ(ran.code, code);

@@ -48,7 +48,7 @@ TEST_F(Submit, ErrorsAreOneLineAndLeaveNothing) {
   EXPECT_FALSE(std::filesystem::exists(plan_ / "plan.results"));
 }
 
-TEST_F(Submit, WhatWasQueuedBeforeARefusalIsTakenBack) {
+TEST_F(Submit, JobsQueuedBeforeARefusalAreCancelled) {
   stand_in("scontrol", "echo 'MaxArraySize            = 1'\n");
   stand_in("squeue", "");
   // The third array is one too many.

@@ -39,7 +39,7 @@ plan::Merged rows_of(const std::vector<std::pair<double, double>>& points) {
 
 std::vector<const plan::Row*> all(const plan::Merged& merged) { return plan::chosen_rows(merged, {}); }
 
-TEST(PlanPareto, IsWhatNoOtherBeats) {
+TEST(PlanPareto, HasTheUndominatedCases) {
   std::mt19937 random(7);
   std::vector<std::pair<double, double>> points;
   for (int n = 0; n < 300; ++n) {

@@ -78,7 +78,7 @@ TEST(PlanMake, NamesAreStableAndUnique) {
     EXPECT_FALSE(first.contains(one.id));
 }
 
-TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
+TEST(PlanMake, RefusesSettingsWithoutEffectWithTheLine) {
   const Folder folder;
   const std::pair<const char*, const char*> wrong[] = {
       {"kind = \"cycles\"\n[axes]\nn = []\n", "spec.toml:3:5: n has no value"},
@@ -114,7 +114,7 @@ TEST(PlanMake, RefusesWithTheLineWhatMeansNothing) {
   std::printf("[figure] wrong_specifications = %zu (limit > 0)\n", std::size(wrong));
 }
 
-TEST(PlanMake, LeavesOutWhatIsRefusedOnlyWhereAsked) {
+TEST(PlanMake, OmitsRefusedCasesOnRequestOnly) {
   const Folder folder;
   auto picky = vocabulary();
   picky.check = [](const plan::Words& words) {
@@ -130,7 +130,7 @@ TEST(PlanMake, LeavesOutWhatIsRefusedOnlyWhereAsked) {
   EXPECT_EQ(made.left_out, std::vector<std::string>{"n=2: --n: no"});
 }
 
-TEST(PlanMake, AFileThatWasChangedIsNoPlan) {
+TEST(PlanMake, ChangedFilesAreRefused) {
   const Folder folder;
   const std::string text = json_text(plan::to_json(plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 2]\n")), 1);
   EXPECT_EQ(plan::read_plan(folder.write("p.json", text)).cases.size(), 2u);

@@ -216,7 +216,7 @@ TEST(PlanProgram, AForgedStepIsAnErrorOfItsFile) {
   EXPECT_FALSE(fs::exists(folder / "stolen.nrrd"));
 }
 
-TEST(PlanProgram, WhatIsWrongInASpecificationIsSaidTruly) {
+TEST(PlanProgram, ErrorsInASpecificationAreNamedCorrectly) {
   const TempFolder folder;
   const auto make = [&](const std::string& spec) {
     return fastsplat({"plan", "make", folder.write("s.toml", spec), "-o", folder / "p.json"});

@@ -30,7 +30,7 @@ std::size_t runs(const Folder& folder) {
   return static_cast<std::size_t>(std::ranges::count(log, '\n'));
 }
 
-TEST(PlanRun, SkipsWhatIsDoneAndMakesAgainWhatIsDamaged) {
+TEST(PlanRun, SkipsFinishedCasesAndRepeatsDamagedOnes) {
   const Folder folder;
   const auto plan = plan_of(folder, kFive);
   const std::string program = script(folder);
@@ -90,7 +90,7 @@ TEST(PlanRun, AFailingCaseIsAResultAndTheOthersGoOn) {
 }
 
 /// Disk, memory, signals, a crash, a module that is missing: none is a result, all is run again.
-TEST(PlanRun, WhatTheMachineDidIsNoResult) {
+TEST(PlanRun, FailuresOfTheMachineAreNotResults) {
   const Folder folder;
   const auto plan = plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 66, 70, 71, 72, 73, 75, 126, 139]\n");
   const std::string program = script(folder);
@@ -127,7 +127,7 @@ TEST(PlanRun, TheMachineFailsAllCasesOfASharedFile) {
   EXPECT_EQ(run(folder, plan, program, "results", {}, 2).passed, 3u);
 }
 
-TEST(PlanRun, SharesWhatCasesShareAndFailsThemTogether) {
+TEST(PlanRun, SharesCommonWorkAndFailsItsCasesTogether) {
   const Folder folder;
   const auto plan =
       plan_of(folder, "kind = \"compare\"\n[constants]\nvolume = \"v\"\n[axes]\nn = [1]\na.b = [1, 2, 3, 4]\n");
@@ -159,7 +159,7 @@ TEST(PlanRun, TwoCopiesAtOnceDoNoHarm) {
   EXPECT_GT(runs(folder) - 5, 5u) << "they were not at work together";
 }
 
-TEST(PlanMerge, NamesWhatIsMissingOrForeign) {
+TEST(PlanMerge, NamesMissingAndForeignResults) {
   const Folder folder;
   const auto plan = plan_of(folder, kFive);
   const std::string program = script(folder);

@@ -89,7 +89,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
 }
 
 // A sink that is ready now and then takes a picture in a hundred times what a device may stand still.
-TEST(CheckedCycles, ASlowSinkIsNoHang) {
+TEST(CheckedCycles, ASlowSinkIsNotAHang) {
   VerifyOptions options = tiny();
   options.ready = "every-100";
   options.input = "always";

@@ -111,7 +111,7 @@ TEST(Checker, SeesALostEventOfEachTap) {
   }
 }
 
-TEST(Checker, NothingComparedIsNoPass) {
+TEST(Checker, ARunWithoutComparisonsIsNotAPass) {
   StreamDocument empty;
   const auto config = driver::load_config("tiny");
   empty.width = empty.height = 1;

@@ -139,7 +139,7 @@ TEST(Plan, MapsEveryBinOfEveryConfigurationAndNoOther) {
   EXPECT_GT(closure.bins, 0u);
 }
 
-TEST(Plan, RefusesWhatItDoesNotUnderstand) {
+TEST(Plan, RefusesUnknownPlans) {
   const auto path = std::filesystem::temp_directory_path() / ("fastsplat-plan-" + std::to_string(::getpid()) + ".toml");
   const auto refused = [&](const std::string& text) {
     std::ofstream(path) << text;

@@ -119,7 +119,7 @@ TEST_F(MetaImage, SeparateData) {
 }
 
 // MetaIO inflates gzip, too, and takes any field first; programs write fields of their own.
-TEST_F(MetaImage, ReadsWhatMetaIoReads) {
+TEST_F(MetaImage, ReadsTheSameFilesAsMetaIo) {
   EXPECT_EQ(load("CompressedData = True\n", gzip("12345678")).voxels, load("", "12345678").voxels);
   const std::string rest = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678";
   for (const char* first : {"Modality = MET_MOD_CT\n", "0008|0060 = CT\n", "ITK_InputFilterName = NrrdImageIO\n"})
@@ -150,7 +150,7 @@ TEST_F(MetaImage, UnitsAndOddSpacingsAreFollowed) {
   EXPECT_THAT(load("AnatomicalOrientation = RAI\n").remarks, ElementsAre());
 }
 
-TEST_F(MetaImage, EachFieldIsFollowedOrRefusedOrSaid) {
+TEST_F(MetaImage, EachFieldIsFollowedRefusedOrReported) {
   // MetaIO's own readings: ImagePosition is an offset, HeaderSize counts from the file's beginning.
   EXPECT_EQ(load("ImagePosition = 10 20 30\n").centre, load("Offset = 10 20 30\n").centre);
   EXPECT_TRUE(load("ImagePosition = 10 20 30\n").placed);
@@ -176,7 +176,7 @@ TEST_F(MetaImage, DataInSeveralFiles) {
   EXPECT_EQ(mhd("ElementDataFile = s%d.raw 7 5 -2\n").voxels, load("").voxels);
 }
 
-TEST_F(MetaImage, RefusesWhatIsNoVolume) {
+TEST_F(MetaImage, RefusesFilesThatAreNotVolumes) {
   EXPECT_THAT(refused("ElementNumberOfChannels = 3\n"), HasSubstr("one scalar per voxel"));
   EXPECT_THAT(refused("NDims = 2\nDimSize = 4 2\n"), HasSubstr("3 dimensions"));
   EXPECT_THAT(refused("NDims = 4\nDimSize = 2 2 1 2\n"), HasSubstr("one scalar per voxel"));

@@ -129,7 +129,7 @@ TEST_F(Nifti, ScalingIsApplied) {
   EXPECT_EQ(unscaled.stored, VoxelType::U8);
 }
 
-TEST_F(Nifti, ScalingThatIsNoNumberMeansNone) {
+TEST_F(Nifti, InvalidScalingIsIgnored) {
   // Some writers put NaN where nothing was said.
   EXPECT_THAT(load({.slope = NAN, .intercept = NAN}, kBytes).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
@@ -153,7 +153,7 @@ TEST_F(Nifti, AxesAreTurnedToRightAnteriorSuperior) {
   EXPECT_EQ(sagittal.spacing, glm::dvec3(2, 1, 3));
 }
 
-TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
+TEST_F(Nifti, AnUnusableFormIsReportedAndTheOtherUsed) {
   for (const std::array<double, 12>& rows : {std::array<double, 12>{},
                                              {NAN, 0, 0, 0, 0, INFINITY, 0, 0, 0, 0, 1, 0},
                                              {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0}}) {
@@ -173,7 +173,7 @@ TEST_F(Nifti, AnUnusableFormIsSaidAndTheOtherUsed) {
 }
 
 // libnifti2 makes what is not finite 0, and shortens a rotation that is too long.
-TEST_F(Nifti, AQformThatIsNoRotationIsNotUsed) {
+TEST_F(Nifti, AQformThatIsNotARotationIsNotUsed) {
   int unusable = 0;
   for (const int version : {1, 2}) {
     for (const auto& quaternion : {std::array<double, 3>{NAN, 0.0, 1.0}, {0.0, INFINITY, 0.0}, {2.0, 2.0, 2.0}}) {
@@ -192,7 +192,7 @@ TEST_F(Nifti, ScalingIsNotHalfApplied) {
   EXPECT_THAT(refused({.slope = INFINITY}), HasSubstr("the header's value scaling is not a number"));
 }
 
-TEST_F(Nifti, AnUnknownUnitIsSaid) {
+TEST_F(Nifti, AnUnknownUnitIsReported) {
   EXPECT_THAT(load({.units = 7}, kBytes).remarks, ElementsAre(HasSubstr("unit of length, code 7, is unknown: mm")));
 }
 
@@ -234,7 +234,7 @@ TEST_F(Nifti, PairsReadTheImgBesideTheHdr) {
   EXPECT_THAT(refusal([&] { load(header, "", "inside/v.hdr"); }), HasSubstr("link to outside"));
 }
 
-TEST_F(Nifti, RefusesWhatIsNoVolume) {
+TEST_F(Nifti, RefusesFilesThatAreNotVolumes) {
   EXPECT_THAT(refused({.dim = {4, 2, 2, 2, 2, 1, 1, 1}}), HasSubstr("got 2 x 2 x 2 x 2"));
   EXPECT_THAT(refused({.dim = {2, 4, 2, 1, 1, 1, 1, 1}}), HasSubstr("3 dimensions"));
   EXPECT_THAT(refused({.datatype = 128}), HasSubstr("voxel type"));  // RGB

@@ -60,7 +60,7 @@ TEST_F(NrrdMeaning, AnAxisAlongTimeAloneIsNotTheVolumes) {
   EXPECT_THAT(volume.remarks, ElementsAre(HasSubstr("12 bytes more than needed for 4 x 3 x 1 voxels")));
 }
 
-TEST_F(NrrdMeaning, WhatASpaceLacksIsSaid) {
+TEST_F(NrrdMeaning, MissingPartsOfASpaceAreReported) {
   const auto remarks = [&](const std::string& lines) { return load("dimension: 3\nsizes: 4 3 2\n" + lines).remarks; };
   const std::string diagonal = "space directions: (2,0,0) (0,3,0) (0,0,4)\n";
   EXPECT_THAT(remarks("space: LPS\nspacings: 2 3 4\nspace origin: (1,2,3)\n"),
@@ -86,7 +86,7 @@ TEST_F(NrrdMeaning, ASpacingBesideADirectionSaysTheSame) {
               HasSubstr("v.nrrd:8: axis 2 has a spacing and a space direction of another length (expected 3"));
 }
 
-TEST_F(NrrdMeaning, WhatTeemRefusesHasItsLine) {
+TEST_F(NrrdMeaning, FilesThatTeemRefusesAreRefused) {
   EXPECT_THAT(refused("dimension: 3\nsizes: 4 3 2\nkinds: domain domian domain\n"),
               HasSubstr("v.nrrd:6: not a valid NRRD header: 'kinds': couldn't parse"));
 }
@@ -109,7 +109,7 @@ TEST_F(NrrdMeaning, SpacesWithTimePlaceAsThoseWithout) {
   std::printf("[figure] spaces with time compared = %d\n", compared);
 }
 
-TEST_F(NrrdMeaning, APlacementThatIsNotUsedIsSaid) {
+TEST_F(NrrdMeaning, APlacementThatIsNotUsedIsReported) {
   const std::string three = "dimension: 3\nsizes: 4 3 2\n";
   EXPECT_THAT(load(three + "space: RAS\nspace directions: (1,0,0) (1,0,0) (0,0,1)\n").remarks,
               ElementsAre(HasSubstr("space directions are not independent")));

@@ -80,7 +80,7 @@ TEST_F(Placed, TurnsWholeAxesFirst) {
   std::printf("[figure] turn_left_of_100_degrees = %.9g\n", turn.degrees);
 }
 
-TEST_F(Placed, WhatIsOnlyRoundingIsStraight) {
+TEST_F(Placed, RoundingErrorsOfAPlacementAreStraight) {
   Volume volume = make_volume({2, 3, 4}, {1, 2, 3}, VoxelType::U8, [](int, int, int) { return 1; });
   const glm::dmat3 hair = turned(0.005, 0);
   place(volume, {.direction = {hair[0], hair[1], hair[2]}});

@@ -27,7 +27,7 @@ TEST(Synthetic, AllNamesGiveCubesInRange) {
   }
 }
 
-TEST(Synthetic, ContentIsWhatItsNameSays) {
+TEST(Synthetic, ContentMatchesItsName) {
   const Volume cube = make_synthetic("binary-cube", 32);
   EXPECT_EQ(std::count(cube.voxels.begin(), cube.voxels.end(), 1.0f), 16 * 16 * 16);
   EXPECT_EQ(std::count(cube.voxels.begin(), cube.voxels.end(), 0.0f), 32 * 32 * 32 - 16 * 16 * 16);

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only there so that its precompiled headers are built once for all tests (tests/CMakeLists.txt).
+// Exists so that its precompiled headers are built once for all tests (tests/CMakeLists.txt).

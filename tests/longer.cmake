@@ -1,5 +1,5 @@
-# Tests of fast files that take more than some half a second of a processor: they are labelled slow. `./run test` has them,
-# `./run test -L fast`, which is to stay under a minute of wall on two processors, does not.
+# Tests in fast files that take more than about half a second of processor time. They get the label `slow`, so that
+# `./run test -L fast` stays under a minute on two processors.
 set(fastsplat_longer_tests
   cli.Index.IsRefusedInOneLineWhereItCannotBe
   cmodel.Configs/Culling.ModelEqualsOracle/base_pixel

@@ -12,9 +12,9 @@ BUILTINS = set("""alias break case cd command continue do done echo elif else es
  if in kill local mapfile printf pwd read return set shift source test then time times trap true type ulimit umask unset until wait while""".split())
 WRAPPERS = {"!", "if", "then", "else", "elif", "do", "while", "until", "time", "exec", "env", "nice", "xargs", "sudo", "timeout"}
 PROGRAM = re.compile(r"[a-z][a-z0-9_+.-]*")
-# Called by another program: `verilator --build` and `--binary` run make, CMake looks for the others by itself.
+# Programs started by another program: `verilator --build` and `--binary` run make; CMake finds the others itself.
 CALLED_BY = {"make": r"verilator\b.*--(build|binary)\b|VERILATOR\}.*--(build|binary)\b", "g++": r"(?m)^project\(", "pkg-config": r"find_package\(PkgConfig"}
-# What C++ and Python start: the first word of a literal behind the function that starts it.
+# Programs started by C++ and Python: the first word of the literal after the function that starts it.
 STARTS = re.compile(r"\b(?:run_words|start_daemon|client|in_path|system|popen|output_of|Popen|subprocess\.run)"
                     r"\(?\s*[\[{(]\s*[{\[]?\"(?:[^\"]*command -v )?([a-z][a-z0-9_+.-]*)[\" ]")
 
@@ -23,7 +23,7 @@ def plain_shell(text):
     """Without comments, quoted text, here-documents, arithmetic, arrays and patterns of `case`; what $( ) holds stays, on lines of its own."""
     text = re.sub(r"<<-?'?(\w+)'?[^\n]*\n.*?\n\1(?=\n)", "", text, flags=re.S)
     text = re.sub(r"\$'(?:[^'\\]|\\.)*'", "''", text.replace("\\\n", " "))
-    out, quotes, i = [], [False], 0  # the last of quotes: whether this level of $( ) is inside double quotes
+    out, quotes, i = [], [False], 0  # one entry per level of $( ): whether it is inside double quotes
     while i < len(text):
         inside, rest = quotes[-1], text[i:i + 3]
         if rest[0] == "\\":

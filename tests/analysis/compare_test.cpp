@@ -255,7 +255,7 @@ TEST(Compare, NotFiniteFailsAndIsCounted) {
   const double clean_max = compare(ref, test).figures.max_abs_lsb;
   ref.data[3] = kNaN;
   ref.data[4] = kInf;
-  test.data[4] = kInf;  // equal infinities are still nothing that can be compared
+  test.data[4] = kInf;  // equal infinities cannot be compared either
   test.data[9] = -kInf;
   ref.data[20] = -kInf;  // against a number
   const CompareReport report = compare(ref, test);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error maps: the right colour at the right pixel, a legend with its numbers, exact through a display file.
+// Error maps: the right colour at the right pixel, a legend with its numbers, no loss in a display file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The metadata of a render names everything that made it, and survives a file.
+// The metadata of a render names all of its inputs and survives a file.
 #include "analysis/provenance.hpp"
 
 #include <gmock/gmock.h>

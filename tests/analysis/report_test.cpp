@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The printed and the machine-readable report: strict JSON with the promised keys, a table a person can check.
+// The printed and the machine-readable report: strict JSON with the documented keys, a readable table.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

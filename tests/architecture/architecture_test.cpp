@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walls of docs/architecture.md: who may include whom, and what the device may not contain.
+// The rules of docs/architecture.md: who may include whom, and what the device may not contain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace fastsplat::architecture {
 namespace {
 
-/// Rooms as they are drawn in docs/architecture.md: each with what it may include directly; what those may include
-/// comes with them.
+/// Rooms as docs/architecture.md draws them: each with the rooms that it may include directly. What those may include
+/// follows.
 const Arrows kDrawn{
     {"base", {}},
     {"base/parallel", {"base"}},
@@ -68,7 +68,7 @@ const Arrows kDrawn{
     {"docs/examples", {"base/images", "driver/config", "driver/files", "testbench/device"}},
 };
 
-/// `drawn` with everything that is reached by going on; a room on a circle reaches itself.
+/// The transitive closure of `drawn`; a room on a cycle reaches itself.
 Arrows reached(const Arrows& drawn) {
   Arrows all = drawn;
   for (bool grown = true; grown;) {
@@ -176,7 +176,7 @@ TEST(Architecture, TheDeviceIsIntegerOnlyAndDeterministic) {
   EXPECT_TRUE(offences.empty()) << joined(offences);
 }
 
-/// Whoever links the image library brings hundreds of others into every run.
+/// Every program that links the image library loads hundreds of others.
 TEST(Architecture, TheImageLibraryIsIncludedByItsModuleAlone) {
   int inside = 0;
   for (const auto& file : product()) {
@@ -217,7 +217,7 @@ TEST(Architecture, NoFileIsLongerThan600Lines) {
   }
 }
 
-/// Else a module can only be read behind another one that includes the file.
+/// Otherwise a module would compile only after another one that includes the file.
 TEST(Architecture, RtlIncludesTheMacrosItUses) {
   const std::regex use("`FASTSPLAT_(FAULT|NARROW|ASSERT|ASSUME|COVER|INIT)");
   int uses = 0;
@@ -257,7 +257,7 @@ TEST(Architecture, EveryFileNamesItsLicenceAndAHeaderWhatItIsFor) {
   figure("headers", headers);
 }
 
-// The checks above are only worth something if they notice: each against a small tree that breaks its rule.
+// The checks above must notice violations: each is run on a small tree that breaks its rule.
 TEST(ArchitectureMustFail, AnIncludeAgainstTheArrowIsNamed) {
   int checked = 0;
   const auto offences = arrow_offences(

@@ -6,19 +6,19 @@
 namespace fastsplat::architecture {
 namespace {
 
-/// What lies between brackets that are open. Arguments have no order; braces and statements have one.
+/// The contents of open brackets. Arguments have no order; braces and statements have one.
 struct Open {
   bool arguments = false;
-  bool drawn = false;    ///< since whatever last had an order
+  bool drawn = false;    ///< since the last token that orders
   bool earlier = false;  ///< in an argument before
   bool any = false, statements = false;
-  bool draw = false;  ///< the arguments of a draw itself: evaluated before it
+  bool draw = false;  ///< the arguments of a draw: evaluated before it
 };
 
 }  // namespace
 
 std::vector<std::string> draw_offences(const std::vector<SourceFile>& files, int& draws) {
-  // A statement that encloses, a generator by its usual names, or a sign that orders or encloses.
+  // A statement that encloses others, a generator by its usual names, or a token that orders or encloses.
   static const std::regex token(
       R"(\b(?:if|for|while|switch) ?\(|\b(?:uniform|(?:random_?|rng|r)\.(?:next|between|chance|once_in|one_of|unit|below))\(|\n|&&|\|\||<<|>>|[(){}\[\],;?:=])");
   std::vector<std::string> offences;
@@ -48,7 +48,7 @@ std::vector<std::string> draw_offences(const std::vector<SourceFile>& files, int
       } else if (sign == ")" || sign == "]" || sign == "}") {
         const Open closed = open.back();
         if (open.size() > 1) open.pop_back();
-        // The body of a lambda or a block draws when it runs, not where it stands.
+        // The body of a lambda or a block draws when it runs, not where it is written.
         if (closed.any && !closed.draw && !closed.statements) draws_here();
         if (closed.statements) open.back().drawn = false;
       } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading our own source as text: which files there are, what they include, which words they use outside comments.
+// Reads the project's source as text: its files, their includes, and the words outside comments.
 #pragma once
 
 #include <filesystem>
@@ -44,17 +44,17 @@ std::vector<Word> words_of(const std::string& text);
 /// file belongs to the deepest room that holds it.
 using Arrows = std::map<std::string, std::set<std::string>>;
 
-/// The deepest room of `arrows` that holds `path`; empty when none does.
+/// The deepest room of `arrows` that holds `path`; empty if none does.
 std::string room_of(const std::string& path, const Arrows& arrows);
 
 /// "cmodel/x.cpp:3: includes scene/scene.hpp; cmodel may include base", one per offence. `checked` counts project
 /// includes seen.
 std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, const Arrows& arrows, int& checked);
 
-/// Files that include each other in a ring, as "a.hpp -> b.hpp -> a.hpp"; empty when there is none.
+/// Include cycles, as "a.hpp -> b.hpp -> a.hpp"; empty if there are none.
 std::string include_ring(const std::vector<SourceFile>& files);
 
-/// Words that make a model something else than an integer device.
+/// Words that an integer device must not contain.
 std::vector<std::string> device_word_offences(const std::vector<SourceFile>& files, int& checked);
 
 }  // namespace fastsplat::architecture

@@ -83,7 +83,7 @@ TEST_F(AtomicFileTest, SaysWhyNot) {
 TEST_F(AtomicFileTest, AFullDiskKeepsTheOldFile) {
   const fs::path path = folder_ / "file";
   write_text_file(path, "old");
-  // A limit on file size stands for the full disk: write() fails part of the way.
+  // A limit on file size stands for a full disk: write() fails half-way.
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);

@@ -38,7 +38,7 @@ TEST(Parallel, TheMostWorkFirstAndEqualOnesInOrder) {
 TEST(Parallel, AnExceptionReachesTheCallerAndNoFurtherJobBegins) {
   std::atomic<int> begun{0};
   std::atomic<bool> thrown{false};
-  // The first job lasts until the eleventh, another thread's, has thrown and was caught: what would its thread do next?
+  // The first job lasts until the eleventh, in another thread, has thrown and was caught. What does its thread do next?
   const auto job = [&](std::size_t i) {
     ++begun;
     if (i == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 against the examples of its standard (FIPS 180-4) and whatever pieces the bytes come in.
+// SHA-256 against the examples of its standard (FIPS 180-4), with the bytes split in every way.
 #include "base/sha256.hpp"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ TEST(Suggest, OffersTheNearestElseAll) {
 }
 
 TEST(Suggest, DistantNamesAreNotSuggested) {
-  // What was answered: the words share a letter or two.
+  // Wrong suggestions of the past: the words share only a letter or two.
   const std::vector<std::string> presets = {"bone", "fire", "base", "linear"}, flags = {"--video", "--volume", "--tf"};
   for (const char* word : {"nope", "none", "mine", "vase-2"}) {
     if (edit_distance(word, "bone") == 1) continue;
@@ -52,7 +52,7 @@ TEST(Suggest, AWordOfAMegabyteCostsNothing) {
   EXPECT_FALSE(may_mean(std::string(1'000'000, 'r'), known[0]));
   EXPECT_TRUE(may_mean("radius.entrie", known[0]));
   EXPECT_TRUE(may_mean("radius.entriess", known[0]));
-  // Two hundred edit distances of a megabyte take seconds, comparing lengths takes none.
+  // Two hundred edit distances of a megabyte take seconds; comparing lengths takes no time.
   const std::clock_t began = std::clock();
   EXPECT_EQ(suggestion(std::string(1'000'000, 'r'), known).substr(0, 6), "known:");
   const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;

@@ -47,7 +47,7 @@ TEST_F(Unfinished, ASignalRemovesFilesThenTheirFolder) {
   fs::create_directory(folder_ / "made");
   fs::create_directory(folder_ / "full");
   write("full/of another");
-  const UnfinishedPath made(folder_ / "made"), full(folder_ / "full");  // named before what lies in them
+  const UnfinishedPath made(folder_ / "made"), full(folder_ / "full");  // named before its contents
   const UnfinishedPath first(write("made/first")), second(write("made/second"));
   UnfinishedPath kept(write("kept"));
   kept.keep();
@@ -57,11 +57,11 @@ TEST_F(Unfinished, ASignalRemovesFilesThenTheirFolder) {
   EXPECT_TRUE(there("kept"));
 }
 
-/// A child that writes a file again and again, as one does that goes on after its parent.
+/// A child that writes a file again and again, like one that outlives its parent.
 pid_t writing_child(const fs::path& path) {
   const pid_t child = ::fork();
   if (child != 0) return child;
-  ::alarm(20);  // whatever becomes of the test
+  ::alarm(20);  // even if the test fails
   for (;;) {
     std::ofstream(path) << "more";
     ::usleep(500);
@@ -93,7 +93,7 @@ TEST_F(Unfinished, AHelperReportsHowItEnded) {
   EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
-// Its parent is killed, which no handler sees: the grandchild's end closes the pipe.
+// Its parent is killed, which no handler can catch; the end of the grandchild closes the pipe.
 TEST_F(Unfinished, AChildEndsWithItsParentHoweverThatEnds) {
   int ends[2] = {-1, -1};
   ASSERT_EQ(::pipe(ends), 0);

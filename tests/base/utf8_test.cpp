@@ -8,7 +8,7 @@
 namespace fastsplat {
 namespace {
 
-/// A code point as UTF-8's formula has it, longer than needed if asked.
+/// A code point in UTF-8, longer than needed on request.
 std::string encoded(std::uint32_t point, int length) {
   if (length == 1) return {static_cast<char>(point)};
   std::string out(static_cast<std::size_t>(length), '\0');

@@ -1,12 +1,12 @@
-# The example bench of testbench/capi/example under Verilator, with the faults of testbench/faults to choose from, as another simulator's user would
-# build it: of tiny, and of a device that culls.
+# The example bench of testbench/capi/example under Verilator, with selectable faults of testbench/faults. Built as a
+# user of another simulator would: for tiny, and for a device that culls.
 file(GLOB rtl CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.sv ${PROJECT_SOURCE_DIR}/rtl/*/*.sv ${PROJECT_SOURCE_DIR}/rtl/*.svh)
 set(modules ${rtl})
 list(FILTER modules INCLUDE REGEX "\\.sv$")
 set(faults ${PROJECT_BINARY_DIR}/share/fastsplat/fastsplat_fault_pkg.sv)
 set(bench ${PROJECT_SOURCE_DIR}/testbench/capi/sv/fastsplat_dpi_pkg.sv ${PROJECT_SOURCE_DIR}/testbench/capi/sv/fastsplat_monitor.sv ${PROJECT_SOURCE_DIR}/testbench/capi/example/fastsplat_bench.sv)
 
-# example_bench(OUT FOLDER CONFIG [FLAG...]): the program, and what makes it.
+# example_bench(OUT FOLDER CONFIG [FLAG...]): the program, and the commands that build it.
 function(example_bench out name config)
   set(folder ${PROJECT_BINARY_DIR}/verilated/${name})
   set(package ${folder}/fastsplat_pkg.sv)
@@ -20,7 +20,7 @@ function(example_bench out name config)
     COMMENT "Package of the example bench")
   add_custom_command(
     OUTPUT ${program}
-    COMMAND ${CMAKE_COMMAND} -E rm -f ${program}  # Verilator's makefile does not know that the library is another
+    COMMAND ${CMAKE_COMMAND} -E rm -f ${program}  # Verilator's makefile does not see that the library changed
     COMMAND ${PROJECT_SOURCE_DIR}/tools/cmake/verilate.sh ${folder}/verilator.log ${CMAKE_COMMAND} -E env OBJCACHE=${FASTSPLAT_CCACHE} ${VERILATOR} --binary --timing ${ARGN} -j 1 --quiet-exit
             --top-module fastsplat_bench --Mdir ${folder}/obj -DFASTSPLAT_FAULT_SELECT=fastsplat_fault_pkg::selected -I${PROJECT_SOURCE_DIR}/rtl
             -MAKEFLAGS OPT_FAST=-O1 -MAKEFLAGS OPT_SLOW=-O0 -MAKEFLAGS OPT_GLOBAL=-O0
@@ -32,6 +32,6 @@ function(example_bench out name config)
   set(${out} ${program} PARENT_SCOPE)
 endfunction()
 example_bench(FASTSPLAT_CAPI_BENCH capi_bench tiny --assert)
-# Without the device's own assertions, which would speak before the checker can.
+# Without the device's assertions, which would fire before the checker reports.
 example_bench(FASTSPLAT_CAPI_BENCH_CULL capi_bench_cull ${PROJECT_SOURCE_DIR}/configs/faults/cull.toml)
 add_custom_target(capi_bench DEPENDS ${FASTSPLAT_CAPI_BENCH} ${FASTSPLAT_CAPI_BENCH_CULL})

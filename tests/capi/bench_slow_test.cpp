@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example bench in its simulation: passes the device as it is, names what a fault changes first.
+// The example bench in its simulation: passes the healthy device and names the first difference of a faulty one.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -20,7 +20,7 @@ cli_test::Result bench(const std::vector<std::string>& arguments) {
   return result;
 }
 
-/// The number before `what` in the text; -1 for none.
+/// The number before `what` in the text; -1 if there is none.
 long number_before(const std::string& text, const std::string& what) {
   const auto at = text.find(what);
   if (at == std::string::npos) return -1;
@@ -59,7 +59,7 @@ TEST(CapiBench, FailsWithAFaultPlantedAndNamesItsFirstMismatch) {
   }
 }
 
-/// A fault that there is not, or that this device has not: a pass would be of another device than was asked for.
+/// Unknown faults, and faults of other devices: a pass would be of another device than the one requested.
 TEST(CapiBench, RefusesUnknownFaults) {
   for (const auto& [fault, why] : {std::pair{"999", "FAIL: no fault 999: 1 to "},
                                    {"abc", "FAIL: +fault: no number: abc"},
@@ -73,7 +73,7 @@ TEST(CapiBench, RefusesUnknownFaults) {
   EXPECT_NE(bench({"+seed=abc"}).out.find("FAIL: +seed: no number: abc"), std::string::npos);
 }
 
-/// A line that is no beat: told, not left out with all behind it.
+/// Lines that are not beats are reported; the lines after them are not silently left out.
 TEST(CapiBench, RefusesLinesThatAreNotBeats) {
   const cli_test::TempFolder folder;
   const std::string whole = cli_test::read_bytes(recorded().vectors + "/beats.hex");
@@ -89,7 +89,7 @@ TEST(CapiBench, RefusesLinesThatAreNotBeats) {
   EXPECT_EQ(plain.out.find("no beat of"), std::string::npos) << plain.out;
 }
 
-/// Its verdicts are told, and looked at: a wrong one is the first thing seen of a corner read wrongly.
+/// Verdicts are reported and compared: if a corner is read wrongly, a wrong verdict is the first difference.
 TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto culling = [](const std::string& fault) {
     auto result = cli_test::run_words(
@@ -101,7 +101,7 @@ TEST(CapiBench, ChecksTheVerdictsOfADeviceThatCulls) {
   const auto right = culling("0");
   EXPECT_EQ(right.code, 0) << right.err;
   EXPECT_NE(right.out.find("PASS: pass: configuration cull"), std::string::npos);
-  // Its counters have 16 bits and have gone round; what was expected is told as the device counts it.
+  // Its counters have 16 bits and have wrapped; the message prints the expected value modulo 2^16, as the device does.
   const auto busy = right.out.find("busy cycles ");
   ASSERT_NE(busy, std::string::npos);
   const auto cycles = right.out.substr(busy + 12, right.out.find(',', busy) - busy - 12);

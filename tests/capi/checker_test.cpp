@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker through the C interface: passes a right device, names what a wrong one does first.
+// The checker through the C interface: passes a correct device, names the first difference of a wrong one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ RawEvent& event_at(Truth& truth, testbench::RawPort port) {
   throw std::runtime_error("no such event");
 }
 
-/// Of a device that has none to tell.
+/// A device without verdicts.
 void show_a_verdict(Truth& truth) {
   const auto at = std::ranges::find_if(truth.events, [](const RawEvent& event) { return !event.beat; });
   const std::uint64_t cycle = at->tap.cycle;
@@ -117,7 +117,7 @@ TEST(CapiChecker, ARefusedStreamNamesItself) {
   EXPECT_NE(first.find("0xef"), std::string::npos) << first;
 }
 
-/// As SystemVerilog tells it: each argument of a port gets to where it is compared.
+/// As the SystemVerilog monitor reports it: each argument of a port reaches its comparison.
 TEST(CapiChecker, EveryPortOfTheMonitorIsCompared) {
   using testbench::RawPort;
   const Truth& truth = truth_of("tiny");

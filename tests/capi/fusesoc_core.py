@@ -9,7 +9,7 @@ import sys
 import yaml
 
 source, build, folder = sys.argv[1:]
-KEYS = {  # of FuseSoC's schema, those that a core like this may have
+KEYS = {  # keys of FuseSoC's schema that such a core may have
     "": {"name", "description", "filesets", "generators", "generate", "targets"},
     "filesets": {"file_type", "files", "depend", "logical_name", "tags"},
     "generators": {"command", "interpreter", "description", "usage", "cache_type", "file_input_parameters"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fastsplat.core names what is there: every module of rtl/, no file that is not, keys that FuseSoC knows; its generator
+// fastsplat.core names every module of rtl/, only files that exist, and only keys that FuseSoC knows. Its generator
 // makes the package, and Verilator reads the files in the core's order.
 #include <gtest/gtest.h>
 

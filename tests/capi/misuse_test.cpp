@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whoever breaks the contract of the C interface is told so in a line, and nothing else happens: NULL, handles that are
-// none, wrong sizes, calls out of order, bytes that are no stream.
+// Misuse of the C interface returns a status and a one-line error, and has no other effect: NULL, invalid handles,
+// wrong sizes, calls out of order, invalid streams.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -190,7 +190,7 @@ TEST_F(CapiMisuse, WrongSizesAndNumbersAreRefused) {
 
 TEST_F(CapiMisuse, CallsOutOfOrderAreRefused) {
   const Model model(config_);
-  // A stream that is not whole is over all the same.
+  // An incomplete stream still ends.
   refused(fastsplat_model_finish(model.handle), "stream", FASTSPLAT_INPUT);
   refused(fastsplat_model_feed(model.handle, words_of(truth_.beats), 1), "the stream failed earlier");
   refused(fastsplat_model_finish(model.handle), "the stream failed earlier");
@@ -231,7 +231,7 @@ TEST_F(CapiMisuse, AStreamThatBreaksIsRefusedAtItsBeatAndThenAltogether) {
   refused(fastsplat_checker_finish(checker.handle, nullptr, 0), "the stream failed earlier");
   ASSERT_EQ(fastsplat_model_reset(model.handle), FASTSPLAT_OK);
   EXPECT_EQ(fastsplat_model_feed(model.handle, words_of(truth_.beats), truth_.beats.size()), FASTSPLAT_OK);
-  // Another configuration's stream.
+  // The stream of another configuration.
   const Config other("small");
   const Model foreign(other);
   refused(fastsplat_model_feed(foreign.handle, words_of(truth_.beats), 1), "configuration", FASTSPLAT_INPUT);
@@ -251,7 +251,7 @@ TEST_F(CapiMisuse, ConfigurationsThatBreakTheirRulesAreRefused) {
   EXPECT_EQ(out, nullptr);
 }
 
-/// Whatever a device under test shows, and whatever comes for a stream: a status, never a crash.
+/// Any output of a device under test and any stream give a status, never a crash.
 TEST_F(CapiMisuse, NonsenseNeverEndsTheProcess) {
   Random random(seed_or(11));
   int accepted = 0, thrown_out = 0, mismatching = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The installed package: moved to another place, found and linked by a project that knows nothing else, in C and in
-// Python; both get the program's own words.
+// The installed package, moved to another folder: an otherwise unprepared project finds and links it, in C and in
+// Python, and gets the program's words.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The package where its user keeps it: not where it was installed to.
+/// The package in a user's folder, not where it was installed.
 const fs::path& installed() {
   static const fs::path kept = [] {
     const fs::path first = recorded().folder / "first", then = recorded().folder / "kept";
@@ -39,7 +39,7 @@ std::map<std::string, std::uint64_t> pairs_of(const std::string& text) {
   return out;
 }
 
-/// What the program says of the stream: counters, and all words of its pixels.
+/// The program's output for the stream: counters, and all words of its pixels.
 std::map<std::string, std::uint64_t> truth() {
   std::map<std::string, std::uint64_t> out;
   std::ifstream in(recorded().vectors + "/vectors.json");
@@ -83,7 +83,7 @@ TEST(CapiPackage, PythonGetsTheProgramsWords) {
   std::printf("%s", result.out.c_str());
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("[figure] python_records ="), std::string::npos);
-  // A library that was named is the one that is meant: no other takes its place.
+  // If a library is named, no other takes its place.
   here.environment.push_back("FASTSPLAT_LIBRARY=/proc/libfastsplat.so.3");
   const auto elsewhere = cli_test::run_words({python, "-c", "import fastsplat"}, here);
   EXPECT_NE(elsewhere.code, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines that the pages tell to type for Verilator: what they name is there, and is read. As --lint-only, which
-// takes the same options and files.
+// The command lines that the pages show for Verilator name existing files, and Verilator reads them. Run with
+// --lint-only, which takes the same options and files.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Of a page the indented command that begins with `begin`, its lines joined.
+/// The indented command of a page that begins with `begin`, its lines joined.
 std::string command_of(const std::string& page, const std::string& begin) {
   std::istringstream lines(cli_test::read_bytes(std::string(FASTSPLAT_SOURCE_DIR) + "/docs/" + page));
   std::string out;
@@ -33,7 +33,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 class Pages : public ::testing::Test {
  protected:
-  /// Typed in the sources' folder, the package elsewhere.
+  /// Run in the sources' folder, with the package elsewhere.
   void read_by_verilator(const std::string& page, const std::string& mode) {
     std::string command = command_of(page, "verilator ");
     ASSERT_NE(command, "") << page;

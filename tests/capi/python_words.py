@@ -38,7 +38,7 @@ for tile in pictures:
     assert np.array_equal(tile.rgba.reshape(-1, 4), expected), "a tile's pixels differ"
 assert next(pixels, None) is None and pictures
 
-# What is wrong is an Error with the library's own line, or a verdict.
+# Errors raise Error with the library's message; differences give a verdict.
 for wrong, status in ((lambda: fastsplat.Config("tinny"), fastsplat.INPUT),
                       (lambda: model.feed(beats), fastsplat.USAGE),
                       (lambda: fastsplat.Config("tiny")["array.lines"], fastsplat.USAGE)):
@@ -48,7 +48,7 @@ for wrong, status in ((lambda: fastsplat.Config("tinny"), fastsplat.INPUT),
         assert error.status == status, error
     else:
         raise AssertionError("not refused")
-# What is no such number, name or file is refused here, before a cast makes something else of it.
+# Invalid numbers, names and files are refused here, before a cast changes them.
 damaged = stream + ".damaged"
 with open(stream, "rb") as whole, open(damaged, "wb") as file:
     file.write(whole.read() + b"xyz")
@@ -83,7 +83,7 @@ assert fresh.counters == model.counters, "whole numbers of another type are the 
 checker = fastsplat.Checker(fastsplat.Config("tiny"))
 checker.took(beats)
 assert not checker.finish() and checker.report().verdict == "mismatch" and checker.first_mismatch()
-# Each field gets to where it belongs.
+# Each field reaches its place.
 tiny = fastsplat.Config("tiny")
 for port, fields, detector in (("verdict", {"tag": 7, "hidden": 1}, "verdicts"), ("pixels", {"keep": 1, "tile": 3, "cut": 1}, "tiles")):
     checker = fastsplat.Checker(tiny, verdicts=True)

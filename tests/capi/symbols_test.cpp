@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What libfastsplat shows and needs: its own functions, all that its headers declare, and no library that a bench has
-// no use for.
+// libfastsplat exports the functions of its headers and no others, and needs no library that a bench does not use.
 #include <gtest/gtest.h>
 
 #include <cstdio>

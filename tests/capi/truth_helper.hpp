@@ -19,16 +19,16 @@ struct Truth {
 
 constexpr std::uint64_t kFirstBeat = 4;
 
-/// Of the built-in configuration `name`; 30 splats of class "mixed".
+/// For the built-in configuration `name`; 30 splats of class "mixed".
 const Truth& truth_of(const std::string& name);
 
 const std::uint32_t* words_of(const std::vector<cmodel::Beat>& beats);
 
-/// Tells the checker everything in order, of what may be left out FASTSPLAT_GIVEN_...; the first status that is not
-/// FASTSPLAT_OK, or that.
+/// Reports all events to the checker in order; `given` selects the optional arguments (FASTSPLAT_GIVEN_...). Returns
+/// the first status that is not FASTSPLAT_OK, or FASTSPLAT_OK.
 fastsplat_status report_all(const std::vector<RawEvent>& events, fastsplat_checker* checker, std::uint32_t given = ~0U);
 
-/// Handles that destroy themselves; creating one that cannot be created is a failure of the test.
+/// Handles that destroy themselves. If one cannot be created, the test fails.
 struct Config {
   explicit Config(const char* name);
   ~Config();

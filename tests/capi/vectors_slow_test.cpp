@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectors of a stream, read back by a small reader that shares nothing with their writer: whole by their checksums,
-// the beats those of the file, hex and JSON of one mind, the pixel beats the pixels.
+// The vectors of a stream, read back by a small independent reader: the checksums hold, the beats are those of the
+// file, hex and JSON agree, and the pixel beats hold the pixels.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -74,7 +74,7 @@ TEST(CapiVectors, ReadBackByAnotherReader) {
     beat_words.push_back(words);
   }
 
-  // Taps: hex and JSON the same, in the same order; beats and tiles in JSON too.
+  // Taps: hex and JSON agree, in order; JSON holds beats and tiles too.
   std::map<std::string, std::vector<Words>> from_hex, from_json;
   for (const char* kind : {"snap", "footprint", "sheet", "composite", "pixel"}) {
     for (const auto& line : vectors.files.at(std::string(kind) + ".hex")) {
@@ -106,7 +106,7 @@ TEST(CapiVectors, ReadBackByAnotherReader) {
   EXPECT_EQ(beat, beat_words.size());
   EXPECT_EQ(from_json, from_hex);
 
-  // Pixel beats: what they keep are the tap's pixels, in order, and those of the pictures.
+  // Pixel beats: the kept bytes are the tap's pixels, in order, and those of the pictures.
   const std::size_t lanes = vectors.contents["lanes"];
   std::size_t pixel = 0, last = 0;
   Words shown, drawn;
@@ -151,7 +151,7 @@ TEST(CapiVectors, ABadStreamLeavesNothingBehind) {
                          3, {"file"});
   cli_test::expect_error(cli_test::fastsplat({"stream", "vectors", recorded().stream, "--config", "small", "-o", out}),
                          3, {"small"});
-  // Its own stream under one of the names is not replaced.
+  // A stream of the user's under one of the names is not replaced.
   const std::string kept = folder.write("beats.hex", cli_test::read_bytes(recorded().stream));
   EXPECT_NE(cli_test::fastsplat({"stream", "vectors", kept, "--config", "tiny", "-o", folder.path().string()}).code, 0);
   EXPECT_EQ(folder.entries(), (std::vector<std::string>{"bad.fss", "beats.hex", "file"}));

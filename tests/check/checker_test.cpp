@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker with no simulator near it: it passes what a right device shows, and whatever differs is seen by the
-// detector whose business it is, and by that one first.
+// The checker without a simulator: it passes the output of a correct device, and each difference is first seen by its
+// detector.
 #include "testbench/check/checker.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Pixels final : cmodel::PixelSink {
   }
 };
 
-/// A stream, all that a right device shows of it, and what its counters say.
+/// A stream, the output of a correct device for it, and its counters.
 struct Truth {
   cmodel::Config config;
   std::vector<cmodel::Beat> beats;
@@ -72,7 +72,7 @@ class Checked : public ::testing::TestWithParam<const char*> {
     return truth_of(named_config(GetParam()), which, splats);
   }
 
-  /// The report of `truth` with something wrong in it has to name the detector.
+  /// The report of `truth` with an error planted must name the detector.
   void seen(const Truth& wrong, Detector by, const std::string& what) {
     const CheckReport report = check(wrong);
     ++tried_[testbench::to_string(by)];
@@ -147,7 +147,7 @@ TEST_P(Checked, EveryFieldOfASnap) {
   }
 }
 
-// A number that was counted to the end and one that was not are told apart.
+// A saturated number and one that was counted to the end differ in the report.
 TEST_P(Checked, SaysWhetherItStoppedCounting) {
   const Truth right = truth();
   const auto at = some(right, RawPort::Snap, 2);
@@ -163,7 +163,7 @@ TEST_P(Checked, SaysWhetherItStoppedCounting) {
     std::printf("[figure] stopping after %llu: mismatches = %llu, stopped = %d\n",
                 static_cast<unsigned long long>(most), static_cast<unsigned long long>(report.mismatches),
                 report.stopped ? 1 : 0);
-    // Here the taps go on when it no longer listens.
+    // Taps continue after the checker has stopped.
     EXPECT_GE(report.mismatches, std::min<std::uint64_t>(most, 2));
     EXPECT_EQ(report.stopped, most <= 2);
   }
@@ -181,7 +181,7 @@ TEST_P(Checked, EveryBankOfAWindow) {
       seen(with(right, at, [&](RawEvent& event) { event.words[bit / 32] ^= 1U << bit % 32; }), Detector::Footprint,
            "bank " + std::to_string(bank) + " of a window");
     }
-    // Of a sheet's last window the sums come before anybody misses it.
+    // The sums of a sheet's last window come before they are missed.
     const auto next = std::find_if(
         right.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, right.events.end(),
         [](const RawEvent& event) { return shows(event, RawPort::Window) || shows(event, RawPort::SheetDone); });
@@ -190,7 +190,7 @@ TEST_P(Checked, EveryBankOfAWindow) {
   }
 }
 
-/// Banks x 4 words: each that lies in the tile counts, no other does (M-tap-4).
+/// Banks x 4 words: banks inside the tile count, others do not (M-tap-4).
 void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& visit,
                int& outside) {
   const auto banks = static_cast<std::size_t>(right.config.lanes) * static_cast<std::size_t>(right.config.lanes);
@@ -247,7 +247,7 @@ TEST_P(Checked, TheSheetOfABlock) {
   const Truth right = truth(testbench::StimulusClass::SwapHazards, 60);
   int tried = 0;
   for (const std::size_t at : some(right, RawPort::SheetDone, 12)) {
-    // The next event but beats and splats' taps: another block of the tile, or its picture.
+    // The next event other than beats and splats' taps: another block of the tile, or its picture.
     const auto next = std::find_if(
         right.events.begin() + static_cast<std::ptrdiff_t>(at) + 1, right.events.end(),
         [](const RawEvent& event) { return shows(event, RawPort::Composite) || shows(event, RawPort::Pixels); });
@@ -268,7 +268,7 @@ TEST_P(Checked, EveryWordOfThePixels) {
   }
 }
 
-// After the last tile, where nothing is expected any more.
+// After the last tile, where nothing more is expected.
 TEST_P(Checked, TapsOutsideATile) {
   const Truth right = truth();
   for (const auto& [port, detector] : {std::pair{RawPort::Snap, Detector::Snap},
@@ -285,7 +285,7 @@ TEST_P(Checked, TapsOutsideATile) {
   }
 }
 
-// All pixels are right; only that they are no tile yet, or one too soon, is wrong.
+// All pixels are right, but they come without a tile, or a tile too early.
 TEST_P(Checked, TheEndOfATile) {
   const Truth right = truth();
   int tried = 0;

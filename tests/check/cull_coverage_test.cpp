@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bins of culling: each is met by the random streams that the plan names for them, a jump of tags only where hidden
-// sets are left out, and a device that does not cull has none.
+// Culling bins: the random streams that the plan names hit each of them; a jump of tags needs omitted hidden groups; a
+// device without culling has none.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles of densities have no bins of words, of whatever a stream of them holds; tiles of colours beside them keep
-// theirs.
+// Density tiles never hit bins of words, whatever their streams hold; colour tiles beside them do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace {
 constexpr const char* kGroups[] = {"factor.", "slab.",   "light.",   "picture.", "transmittance.", "block.", "pixel.",
                                    "rlut.",   "radial.", "product.", "sum.",     "bank.",          "edge.",  "phase."};
 
-/// Hits of such bins in the tiles that are of densities, or that are not; and how many tiles those are.
+/// Hits of such bins in density tiles, or in the other tiles; and the number of these tiles.
 struct Hits {
   std::uint64_t hits = 0, tiles = 0;
 };
@@ -58,7 +57,7 @@ TEST(DensityCoverage, TilesOfDensitiesHitNoBinOfWords) {
   EXPECT_GT(colours.hits, 0U);
 }
 
-/// Bins of a group that a record hits, with commas between.
+/// Bins of a group that a record hits, joined by commas.
 std::string bins_of(const std::string& group, const cmodel::Record& record) {
   Coverage coverage;
   StreamCoverage stream(test::named_config("faults/post"), coverage);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operands behind a differing word are those of that word: of its own column and row of the footprint, its own
-// channel, its own pixel. Looked up here in the stream's tables, by the page.
+// The operands shown for a differing word are that word's own: column and row of the footprint, channel and pixel. This
+// test looks them up in the stream's tables, by the page.
 #include "testbench/triage/explain.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ std::string hex(std::uint64_t value) {
   return text;
 }
 
-/// A stream of footprints of many windows, every tap the model makes of it, and the one radius set it has.
+/// A stream of footprints of many windows, all taps that the model makes of it, and its only radius set.
 class Explained : public ::testing::Test {
  protected:
   const cmodel::Config config_ = named_config("tiny");
@@ -47,7 +47,7 @@ class Explained : public ::testing::Test {
     return explain([&](const auto& sink) { sink(beats_); }, config_, divergence);
   }
 
-  /// The table that was loaded last.
+  /// The table loaded last.
   const cmodel::LoadTable& table(cmodel::Table which) const {
     const cmodel::LoadTable* found = nullptr;
     for (const auto& one : document_.tables)

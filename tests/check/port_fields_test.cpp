@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of a port against the same bits read one by one: every width, every count that any device's ports have.
+// Fields of a port against the same bits read one by one: every width and every count that a device can have.
 #include "testbench/device/port_fields.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(PortFields, AreTheBitsOfThePort) {
   for (int bits = 1; bits <= 32; ++bits) {
     const testbench::PortFields fields(bits);
     for (const std::size_t count : {1, 4, 16, 31, 32, 33, 64, 256}) {
-      // As many words as hold the fields: the sanitizers' build sees who reads more.
+      // Exactly as many words as hold the fields, so that the sanitizers' build sees reads beyond them.
       std::vector<std::uint32_t> words((count * static_cast<std::size_t>(bits) + 31) / 32);
       for (auto& word : words) word = static_cast<std::uint32_t>(random = testbench::mix(random));
       std::vector<std::uint32_t> out(count + 1, kUntouched);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a right device would show of a stream, with no simulator: the model's own taps, turned into those of the ports.
+// The output of a correct device for a stream, without a simulator: the model's taps, converted to those of the ports.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace fastsplat::test {
 
-/// A beat that the device takes, or a tap that it shows.
+/// A beat that the device takes, or a tap that it outputs.
 struct RawEvent {
   std::optional<cmodel::Beat> beat;
   testbench::RawTap tap;  ///< its words are those below
   std::vector<std::uint32_t> words;
 };
 
-/// Everything in order. A beat's taps follow at once, but for the sums, which come kSumsLater windows later, as they do
-/// in the device. Banks outside the tile hold ones: nobody may look at them.
+/// All events in order. A beat's taps follow at once, except for the sums: they come kSumsLater windows later, as in
+/// the device. Banks outside the tile hold ones, because no check may look at them.
 std::vector<RawEvent> replay(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
 constexpr std::size_t kSumsLater = 3;
 

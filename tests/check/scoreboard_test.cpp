@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scoreboard compares all of a record: two that differ in any one thing are not the same.
+// The scoreboard compares records whole: a difference in any field is reported.
 #include "testbench/check/scoreboard.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(Scoreboard, PassesEqualRecords) {
   testbench::Scoreboard board;
   show(board.model(), sums());
   Record later = sums();
-  later.header.cycle = 100;  // when it was is the cycle model's business
+  later.header.cycle = 100;  // times are compared by the cycle model
   show(board.rtl(), later);
   board.finish();
   EXPECT_EQ(board.comparisons(), 1u);
@@ -88,7 +88,7 @@ TEST(Scoreboard, SeesSurplusAndMissingTaps) {
   EXPECT_EQ(little.backlog(), 0u);
 }
 
-// Thousands of records behind: no allocation per record, and none is lost or out of order.
+// Thousands of records behind: no allocation per record; none lost or out of order.
 TEST(Scoreboard, KeepsTheOrderOfALongBacklog) {
   constexpr std::uint32_t kRecords = 20000;
   testbench::Scoreboard board;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random streams are legal, whatever the class and the configuration: the reader takes each to its end.
+// Random streams are legal in every class and configuration: the reader accepts each to its end.
 #include "testbench/stimulus/stimulus.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bins of what a stream says, by hand: where culling hints lie between circles and ellipses, sets of circles, edges and
-// neighbours of densities, weights between entries; and of cycles what a longer splat path moves.
+// Bins of streams, by hand: culling hints between circles and ellipses, sets of circles, edges and neighbours of
+// densities, weights between entries. Cycle bins that a longer splat path moves.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ cmodel::Record circle(std::uint32_t set) {
 }
 const cmodel::Record kEllipse = cmodel::EllipseRecord{}, kCull = cmodel::CullBlock{}, kEnd = cmodel::EndSheet{};
 
-/// Bins of a group that were hit, with commas between.
+/// Bins of a group that were hit, joined by commas.
 std::string hit(const Coverage& coverage, const std::string& group) {
   std::string out;
   for (const auto& bin : coverage.bins())
@@ -88,7 +88,7 @@ TEST(StreamCoverage, TilesOfDensitiesAtEdgesAndTheirSheets) {
   EXPECT_EQ(of({tile(1, 1), sheet(3), end(1)}), within + "alone");
 }
 
-/// Of a device that interpolates and has ellipses a window is on its way for twelve cycles more.
+/// In a device that interpolates and has ellipses, a window takes twelve cycles more.
 TEST(ResetCoverage, TablesAndWindowsOnTheirWay) {
   const auto at = [](const char* config, const cmodel::BeatCycles& last, std::uint64_t cycle) {
     Coverage coverage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bins of how full the last beat of a table is: by counting words, eight to a beat.
+// Bins of the fill of a table's last beat, by counting words, eight to a beat.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFill = "table.last_beat_of_";
 
-/// The fills that were hit, or are only declared.
+/// The fills that were hit, or that are only declared.
 std::set<int> fills(const testbench::Coverage& coverage, bool hit) {
   std::set<int> out;
   for (const auto& bin : coverage.bins())
@@ -23,7 +23,7 @@ std::set<int> fills(const testbench::Coverage& coverage, bool hit) {
   return out;
 }
 
-/// Words in the last beat of a load_table record, read off the beats it makes: they are counted until none is left.
+/// Words in the last beat of a load_table record, counted in its beats.
 int words_in_last_beat(std::size_t words) {
   cmodel::LoadTable table;
   table.table = cmodel::Table::Radial;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verdicts with no simulator near them: a right device's pass, whatever differs is told.
+// The verdict check without a simulator: a correct device passes, every difference is reported.
 #include "testbench/check/verdict_check.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<cmodel::Beat> stream(const cmodel::Config& config) {
   return write_document(config, make_stimulus(config, testbench::StimulusClass::Mixed, 3, 300).document);
 }
 
-/// A cycle model's, of a stream that hides some sets.
+/// The cycle model's verdicts for a stream with hidden groups.
 std::vector<VerdictCycles> verdicts_of(const cmodel::Config& config, const std::vector<cmodel::Beat>& beats) {
   struct Listener final : cmodel::CycleSink {
     std::vector<VerdictCycles> all;
@@ -59,7 +59,7 @@ class Verdicts : public ::testing::Test {
     ASSERT_GE(hidden, 5);
   }
 
-  /// Differences of a device that tells these.
+  /// Differences for a device that reports these.
   std::vector<std::string> differences(const std::vector<VerdictCycles>& shown) const {
     testbench::VerdictCheck check;
     for (const auto& verdict : right_) check.on_verdict(verdict);
@@ -115,7 +115,7 @@ TEST_F(Verdicts, AreTheCheckersBusiness) {
     cmodel::StreamDecode decode(config_, cmodel::StreamScope::Whole);
     for (const auto& beat : beats_) {
       checker.accept(beat);
-      // All that the cycle model expects by now; of nothing else it is told.
+      // All verdicts that the cycle model expects so far; it gets no other input.
       const cmodel::Record* record = decode.feed(beat);
       if (record == nullptr || !std::holds_alternative<cmodel::CullBlock>(*record)) continue;
       ASSERT_LT(next, right_.size());

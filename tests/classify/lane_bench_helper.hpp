@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixel stage's lane by itself, a pixel a cycle, compared with ClassifyUnit. A last bit shows once in a million
-// pixels, and whole streams have too few of them (docs/numerics.md, section 6.2).
+// The pixel stage's lane standalone, a pixel a cycle, compared with ClassifyUnit. An error in a last bit shows once in
+// a million pixels; whole streams have too few (docs/numerics.md, section 6.2).
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,13 @@
 
 namespace fastsplat::test {
 
-/// What a pixel's densities and those around it are, and where it lies.
+/// The densities of a pixel and its neighbours, and its place.
 struct LanePixel {
   std::uint32_t here = 0, left = 0, right = 0, above = 0, below = 0, before = 0, behind = 0;
   std::int32_t x = 0, y = 0;
 };
 
-/// Tables, scales and a picture's sides, and pixels whose slopes are about where shading fades in.
+/// Tables, scales and a picture's sides, and pixels whose slopes are near the start of shading.
 class LaneStimulus {
  public:
   LaneStimulus(const cmodel::Config& config, std::uint64_t seed) : config_(config), random_(seed) {}
@@ -54,14 +54,14 @@ class LaneStimulus {
   std::vector<std::uint32_t> classify_, root_, glint_, lighting_, sheets_;
   std::optional<cmodel::ClassifyUnit> unit_;
   std::int32_t width_ = 1, height_ = 1;
-  std::int64_t step_ = 0;  ///< neighbours differ by this at most
+  std::int64_t step_ = 0;  ///< largest difference between neighbours
   int sets_ = 0;
-  std::optional<std::uint32_t> rise_{};  ///< of all pixels from left to right, and no other slope
+  std::optional<std::uint32_t> rise_{};  ///< of all pixels from left to right, without another slope
 };
 
 struct LaneResult {
   std::uint64_t pixels = 0;
-  std::string different;  ///< the first that is; empty: none
+  std::string different;  ///< the first difference; empty if there is none
 };
 
 /// Top: the Verilated fastsplat_classify_lane.
@@ -169,7 +169,7 @@ class LaneBench {
       top_->y_i = static_cast<std::uint16_t>(pixel.y);
       clock();
       if (cycle < kStages - 1) continue;
-      // The pixel put in 23 edges ago, this one counted (M-density-19): a lane of another length shows another one.
+      // The pixel put in 23 edges ago, including this one (M-density-19): a lane of another length outputs another one.
       const LanePixel& out = on_its_way[static_cast<std::size_t>((cycle + 1) % kStages)];
       const cmodel::SheetWord expected = stimulus.expected(out);
       ++result.pixels;

@@ -10,15 +10,14 @@ namespace classify = cmodel::classify;
 
 namespace {
 
-/// Tables of one value each, for which a rounding lies just on its edge: one part more of a word would be another
-/// result.
+/// Tables of one value each, for which a rounding lies exactly on its edge: one more part of a word changes the result.
 struct Edge {
   double slope;  ///< gx, S 4.16 words
   std::uint32_t root, per_floor, colour, ambient, glint, specular;
 };
 constexpr Edge kEdges[] = {
-    {1, 448, 614765129, 16384, 0, 0, 0},       // length 7: the share is just not 1 of 256
-    {1 << 15, 16384, 513, 16384, 0, 0, 0},     // length 2^23: it just is
+    {1, 448, 614765129, 16384, 0, 0, 0},       // length 7: the share is just below 1 of 256
+    {1 << 15, 16384, 513, 16384, 0, 0, 0},     // length 2^23: it is just 1
     {1 << 15, 16384, 522, 1, 4099, 4, 21299},  // a lit colour just below the half
 };
 
@@ -47,16 +46,16 @@ void LaneStimulus::next_tables() {
   root_ = words(Table::Root);
   glint_ = words(Table::Glint);
   lighting_ = words(Table::Lighting);
-  // ROOT as it is meant, in most sets: lengths are lengths then.
+  // ROOT holds square roots in most sets, so lengths are true lengths.
   if (random_.chance(70)) {
     for (std::size_t i = 0; i < root_.size(); ++i)
       root_[i] = static_cast<std::uint32_t>(std::lround(std::ldexp(
           1.0 / std::sqrt(1.0 + std::ldexp(static_cast<double>(i), -classify::kRootBits)), classify::kRoot)));
   }
-  // Tilts of nothing in half of them, so that the length is that of the differences.
+  // Half of the pixels have no tilt, so the length is that of the differences.
   const bool straight = random_.chance(50);
   if (straight) std::fill(lighting_.begin() + classify::kTilts, lighting_.end(), 0U);
-  // Neighbours differ by a step, whose slope the floor is about: then the share of shading is neither 0 nor 1.
+  // Neighbours differ by a step whose slope is near the gradient floor: the share of shading is between 0 and 1.
   step_ = config_.sheet_format().max >> random_.between(0, 12);
   const std::int64_t scale = random_.between(1, std::int64_t{1} << random_.between(1, classify::kScale));
   const std::int64_t along = random_.chance(30) ? 0 : random_.between(0, std::int64_t{1} << classify::kScale);
@@ -95,7 +94,7 @@ LanePixel LaneStimulus::pixel() {
       random_.between(0, random_.chance(90) ? std::int64_t{1} << config_.sheet_frac_bits : config_.sheet_format().max));
   for (std::uint32_t* word : {&out.left, &out.right, &out.above, &out.below, &out.before, &out.behind})
     *word = near(out.here);
-  // No slope now and then.
+  // Sometimes no slope.
   if (random_.chance(2)) out.left = out.right = out.above = out.below = out.before = out.behind = out.here;
   const auto place = [&](std::int32_t side) {
     if (random_.chance(10)) return random_.chance(50) ? 0 : side - 1;
@@ -113,7 +112,7 @@ LanePixel LaneStimulus::pixel() {
 }
 
 cmodel::SheetWord LaneStimulus::expected(const LanePixel& pixel) const {
-  // As cmodel/classify/density_stage.hpp has it: at the picture's edges to one side, which counts twice.
+  // As in cmodel/classify/density_stage.hpp: one-sided at the picture's edges, counted twice.
   const auto difference = [&](std::uint32_t after, std::uint32_t before, std::int32_t at, std::int32_t side) {
     const bool first = at == 0, last = at == side - 1;
     const std::int64_t all = std::int64_t{last ? pixel.here : after} - std::int64_t{first ? pixel.here : before};

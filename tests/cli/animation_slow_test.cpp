@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Animations: numbered frames of every engine, what a second run keeps, what Ctrl-C leaves, the video.
+// Animations: numbered frames of every engine, frames kept by a second run, files left by Ctrl-C, the video.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -74,7 +74,7 @@ TEST(Animation, ASecondRunRendersMissingTornAndStaleFramesOnly) {
   EXPECT_EQ(mended["rendered"], 3);
   EXPECT_EQ(contents(folder), whole);
 
-  // Another scene, another engine, another content of the same files: nothing is kept.
+  // Another scene, another engine, other contents of the same files: no frame is kept.
   for (const std::vector<std::string>& change :
        {std::vector<std::string>{"--zoom", "1.1"}, {"--engine", "cmodel", "--config", "small"}}) {
     auto changed = words;
@@ -140,7 +140,7 @@ TEST(Animation, OfAScenesOwnSequence) {
   EXPECT_EQ(folder.entries().size(), 3u + 1 + 1 + 2);
 }
 
-// Stands in for ffmpeg: leaves its arguments in the video, or fails in words.
+// Replaces ffmpeg: writes its arguments into the video, or fails with a message.
 std::string stand_in(const TempFolder& folder, const std::string& script) {
   std::filesystem::create_directory(folder / "bin");
   folder.write("bin/ffmpeg", "#!/bin/sh\n" + script);

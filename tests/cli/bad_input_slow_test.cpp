@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are missing, truncated, corrupt or lying: exit 3 (names that there are none of: 2), one line with the fix,
-// no crash, nothing written.
+// Missing, truncated, corrupt and lying files: exit 3 (unknown names: 2), one line with the fix, no crash, nothing
+// written.
 #include <gtest/gtest.h>
 
 #include "tests/process/process_helper.hpp"
@@ -8,7 +8,7 @@
 namespace fastsplat::cli_test {
 namespace {
 
-// What to hand to the program, by the kind of file it expects.
+// The arguments for the program, by the kind of file that it expects.
 std::vector<std::string> reader_of(const std::string& kind, const std::string& path, const TempFolder& folder) {
   if (kind == "volume") return {"render", "--volume", path, "--size", "8", "-o", folder / "out.exr"};
   if (kind == "scene") return {"render", "--scene", path, "--size", "8", "-o", folder / "out.exr"};
@@ -49,7 +49,7 @@ TEST(BadInput, DirectoriesInPlaceOfFiles) {
 TEST(BadInput, EmptyFiles) {
   const TempFolder folder;
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    if (kKinds[i] == "scene") continue;  // an empty scene.toml says: all defaults
+    if (kKinds[i] == "scene") continue;  // an empty scene.toml is valid: all defaults
     folder.write(kNames[i], "");
     expect_refused(kKinds[i], folder / kNames[i], folder, {kNames[i]});
   }
@@ -75,7 +75,7 @@ TEST(BadInput, NoiseInPlaceOfFiles) {
     expect_refused("image", folder.write(name, noise), folder, {name});
 }
 
-// Every kind of binary file, made by the program itself, cut short in its header, its middle and its last byte.
+// Every kind of binary file, made by the program, cut in its header, in its middle and before its last byte.
 TEST(BadInput, TruncatedFiles) {
   const TempFolder folder;
   const auto make = [&](const std::vector<std::string>& arguments) { expect_success(fastsplat(arguments)); };
@@ -93,8 +93,7 @@ TEST(BadInput, TruncatedFiles) {
                              : name.find(".n") != std::string::npos ? "volume"
                                                                     : "image";
     for (const std::size_t length : {std::size_t{1}, std::size_t{20}, bytes.size() / 2, bytes.size() - 1}) {
-      // The last byte of a PNG or TIFF may be padding of a chunk that no reader needs; one that still reads is no
-      // error.
+      // The last byte of a PNG or TIFF may be padding of a chunk that readers skip; a file that still reads is valid.
       if (length + 1 == bytes.size() && kind == "image") continue;
       const auto path = folder.write("cut" + name.substr(5), bytes.substr(0, length));
       expect_refused(kind, path, folder, {"cut"});
@@ -157,7 +156,7 @@ TEST(BadInput, TomlSaysFileLineAndHint) {
                  {"b.toml:4", "did you mean 'azimuth'"});
   expect_refused("scene", folder.write("c.toml", "volume = 5\n"), folder, {"c.toml:1"});
   expect_refused("scene", folder.write("d.toml", "[camera]\nzoom = nan\n"), folder, {"d.toml:2"});
-  // What would be ignored; a flag may give it a meaning, or take it away.
+  // Keys that would be ignored; a flag may give or take their meaning.
   const auto idle = folder.write("idle.toml", "volume = \"shells:8\"\n[lens]\naperture = 3\n");
   expect_refused("scene", idle, folder, {"idle.toml:3:", "lens.aperture has no effect", "--depth-of-field splats"});
   const auto exposed = folder.write("exposed.toml", "volume = \"shells:8\"\n[xray]\nexposure = 0.1\n");

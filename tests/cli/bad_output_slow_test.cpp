@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results that cannot be written: exit 3, one line, nothing under the final name and no temporary file left.
+// Results that cannot be written: exit 3, one line, no file under the final name, no temporary file.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -10,7 +10,7 @@
 namespace fastsplat::cli_test {
 namespace {
 
-// Every way the program writes a file: the arguments for a given path, and the ending it needs.
+// Every way in which the program writes a file: the arguments for a path, and the ending it needs.
 struct Writer {
   std::string ending;
   std::function<std::vector<std::string>(const std::string&)> arguments;
@@ -83,14 +83,14 @@ std::vector<Writer> writers(const std::string& image) {
   };
 }
 
-// Progress lines may have gone to stdout before the disk was full; the error line and the code are what counts.
+// Progress lines may have gone to stdout before the disk was full; only the error line and the code count.
 void expect_write_error(const Result& result, const std::string& path) {
   EXPECT_EQ(result.signal, 0) << "crashed";
   EXPECT_EQ(result.code, 3) << result.err;
   std::string last = result.err.substr(0, result.err.size() - (result.err.empty() ? 0 : 1));
   last = last.substr(last.rfind('\n') + 1);
   EXPECT_EQ(last.rfind("fastsplat: error: ", 0), 0u) << result.err;
-  // An .nhdr may fail in the data file beside it, which has its own ending.
+  // An .nhdr may fail in its data file, which has its own ending.
   EXPECT_NE(last.find(path.substr(0, path.rfind("out") + 3)), std::string::npos) << last;
   EXPECT_NE(last.find("; "), std::string::npos) << "no fix in: " << last;
 }
@@ -132,7 +132,7 @@ TEST_F(BadOutput, TheNameIsADirectory) {
 }
 
 TEST_F(BadOutput, TheFileSystemIsReadOnly) {
-  // /proc takes no new files from anyone, root included.
+  // /proc accepts no new files, not even from root.
   for (const auto& writer : writers(image_)) {
     const auto path = "/proc/fastsplat-out" + writer.ending;
     expect_error(fastsplat(writer.arguments(path)), 3, {path});
@@ -140,7 +140,7 @@ TEST_F(BadOutput, TheFileSystemIsReadOnly) {
 }
 
 TEST_F(BadOutput, TheFileSizeIsLimited) {
-  // Below the smallest of the files, above what the checks before the work write (nothing).
+  // Below the smallest file, above what the checks before the work write (nothing).
   Surroundings limited;
   limited.largest_file = 200;
   for (const auto& writer : writers(image_)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command that a result carries: what makes it again, as a shell reads it.
+// The command that a result carries reproduces it in a shell.
 #include "cli/command_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of compare beside those of idiff, which shares nothing with them but the decoders.
+// Figures of compare against those of idiff, which shares only the decoders with it.
 #include <gtest/gtest.h>
 
 #include <cmath>

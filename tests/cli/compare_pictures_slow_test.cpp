@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare of pictures that this program did not write, of those for looking, and of one that shows nothing.
+// compare of pictures of other programs, of display pictures, and of an all-black one.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,18 +23,18 @@ Image ramp(int channels, float scale) {
 
 class ComparePictures : public ::testing::Test {
  protected:
-  /// As another program writes it: without the name of the program and without a declaration of its numbers.
+  /// As another program writes it: without a program name and without a declaration of its numbers.
   std::string foreign(const std::string& name, const Image& image) const {
     return undeclared(declared_linear(name, image));
   }
-  /// The PNG without what it says of its numbers.
+  /// The PNG without its declarations.
   static std::string undeclared(const std::string& path) {
     std::string bytes = read_bytes(path);
     if (const auto gamma = bytes.find("gAMA"); gamma != std::string::npos) bytes.erase(gamma - 4, 16);
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  /// ... but that a PNG's numbers are linear.
+  /// The same, declared as linear.
   std::string declared_linear(const std::string& name, const Image& image) const {
     images::write_image(folder_ / name, image, {}, {.kind = images::PixelKind::Uint8});
     return folder_ / name;
@@ -97,7 +97,7 @@ TEST_F(ComparePictures, AnAllBlackPictureIsReported) {
   EXPECT_EQ(compare({black, black}).err.find("all black"), std::string::npos);
   EXPECT_EQ(compare({dim, dim}).err.find("all black"), std::string::npos);
   EXPECT_TRUE(json_of().at("all_black").is_null());
-  // Alpha is no light.
+  // Alpha is not light.
   Image veil(16, 16, 4);
   for (std::size_t at = 3; at < veil.data.size(); at += 4) veil.data[at] = 1.0f;
   EXPECT_NE(compare({foreign("lit.tif", ramp(4, 0.5f)), foreign("veil.tif", veil)}).err.find("veil.tif is all black"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --set: what a changed configuration is called and hashes to, and what is said of a change that cannot be.
+// --set: name and hash of a changed configuration, and the message for an impossible change.
 #include "cli/config_flags.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(ConfigFlags, ASettingOfTheSameValueChangesNothing) {
   EXPECT_EQ(load(ConfigFlags{}), base);
 }
 
-// tile.width = 33 alone is no multiple of the lanes, and neither is rlut.columns = 15 with two lanes.
+// tile.width = 33 alone is not a multiple of the lanes, and neither is rlut.columns = 15 with two lanes.
 TEST(ConfigFlags, LimitsBetweenKeysHoldAfterTheLast) {
   EXPECT_THROW(load("tiny", {"tile.width=33"}), UserError);
   const auto changed = load("tiny", {"tile.width=33", "rlut.columns=15", "array.lanes=1"});

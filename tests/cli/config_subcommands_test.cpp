@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands that take a configuration: config diff, --set wherever --config is, what a changed one is called
-// afterwards.
+// Subcommands that take a configuration: config diff, --set beside --config, the name of a changed configuration.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -66,7 +65,7 @@ TEST(ConfigDiff, ListsEveryKeyThatDiffersAndNoOther) {
   EXPECT_GT(differ, 0u);
 }
 
-// The names are different, the device is the same.
+// The names differ, the device is the same.
 TEST(ConfigDiff, ANameIsNotADifference) {
   const cli_test::TempFolder folder;
   auto config = driver::load_config("tiny");
@@ -132,7 +131,7 @@ TEST(Index, IsShortForSetWhereverThatIs) {
   EXPECT_EQ(config(index.out).name, "tiny+index.kind=linear");
 }
 
-// Of an engine rtl N-2-8: index.kind.
+// N-2-8 for engine rtl: index.kind.
 TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
   struct Case {
     std::vector<std::string> words, said;

@@ -45,7 +45,7 @@ TEST(VerifyCoverage, AddsUpOverRuns) {
   EXPECT_NE(foreign.err.find("not a coverage file"), std::string::npos) << foreign.err;
 }
 
-// Which file, what it should hold and what it holds, in that order, and the way out.
+// File, expected and found content, in that order, and the fix.
 TEST(VerifyCoverage, AnotherConfigurationsFileIsNamed) {
   const TempFolder folder;
   const std::string file = folder / "c.json";
@@ -62,7 +62,7 @@ TEST(VerifyCoverage, AnotherConfigurationsFileIsNamed) {
                 "expected tiny " + ours + ", got other 00000000000000ff", "name another file with --coverage"});
 }
 
-// Processes that add to one file at the same time: the sum is that of all of them.
+// Processes that add to one file at the same time: the sum is complete.
 TEST(VerifyCoverage, NothingIsLostBetweenProcesses) {
   constexpr int kProcesses = 8;
   const TempFolder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fastsplat cycles`: the rows add up, a stream costs what its scene costs, the timeline can be drawn.
+// `fastsplat cycles`: the rows add up, a stream costs the same as its scene, the timeline can be drawn.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   expect_success(from_scene);
   expect_success(from_stream);
 
-  // Of what the figures are, for those who read the JSON only.
+  // Figures that only the JSON has.
   EXPECT_NE(json::parse(from_scene.out)["scene"].get<std::string>().find(" pixels"), std::string::npos)
       << from_scene.out;
   EXPECT_EQ(json::parse(from_stream.out)["stream"], folder / "s.fss");
@@ -55,7 +55,7 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   EXPECT_GT(a["actual"].get<std::uint64_t>(), 0U);
   EXPECT_EQ(sum_of(a["account"]), a["actual"].get<std::uint64_t>());
   EXPECT_EQ(sum_of(b["account"]), b["actual"].get<std::uint64_t>());
-  // The stream's only further record, end_frame, comes while the last picture goes out (M-account-3).
+  // The stream has one more record, end_frame, which comes while the last picture is output (M-account-3).
   EXPECT_EQ(a["account"], b["account"]);
   std::printf("[figure] busy cycles = %llu, sum of the causes %llu\n",
               static_cast<unsigned long long>(a["actual"].get<std::uint64_t>()),

@@ -70,8 +70,8 @@ bool matches(const std::string& line, std::string_view shown) {
   }
 }
 
-// Stands in for ./run: `fastsplat` goes to this build's program; a subcommand that would build or test again must be
-// one that the real one knows.
+// Replaces ./run: `fastsplat` is this build's program; commands that would build or test again only have to exist in
+// the real one.
 std::string stand_in() {
   return "#!/bin/sh\n"
          "verb=$1\n"
@@ -82,21 +82,21 @@ std::string stand_in() {
          "/run' help | grep -q \"^\\./run $verb\" || { echo \"./run knows no $verb\" >&2; exit 1; }\n";
 }
 
-/// Those that have to show commands, and all others that do.
+/// Pages that must show commands, and all others that do.
 std::set<std::string> pages() {
   std::set<std::string> all{"README.md", "docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",
                             "docs/guide/tutorial.md"};
   const fs::path root = FASTSPLAT_SOURCE_DIR;
   for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
     const std::string page = fs::relative(entry.path(), root).string();
-    // Commands of integration.md are of another program: tests/examples/system.sh has it.
+    // The commands of integration.md are of another program: tests/examples/system.sh runs them.
     if (page.ends_with(".md") && page != "docs/integration.md" && !commands_in(read_bytes(entry.path())).empty())
       all.insert(page);
   }
   return all;
 }
 
-/// Without the scans of mricron-data, and so without the output shown.
+/// Without the scans of mricron-data, hence without the output shown.
 std::string with_built_in_scan(const std::string& command) {
   return std::regex_replace(command, std::regex(R"(\bch2(bet)?\b)"), "shells:48");
 }

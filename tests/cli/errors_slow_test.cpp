@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fastsplat errors and errors bound, as a user meets them: what they print, write and refuse.
+// fastsplat errors and errors bound as a user runs them: their output, files and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// fastsplat errors ranges and errors propose, as a user meets them: what they print, write and refuse.
+// fastsplat errors ranges and errors propose as a user runs them: their output, files and refusals.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -73,7 +73,7 @@ TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
   EXPECT_NE(again.out.find(" 0 frames simulated"), std::string::npos) << again.out;
   EXPECT_EQ(read_bytes(folder / "p.toml"), bytes);
   EXPECT_EQ(read_bytes(folder / "j.jsonl"), journal);
-  // The device that it is, by the program's own compare.
+  // The proposed device, by the program's own compare.
   expect_success(fastsplat(with({"render", "-o", folder / "g.exr", "--quiet"}, kSmall)));
   expect_success(fastsplat(with(
       {"render", "--engine", "cmodel", "--config", folder / "p.toml", "-o", folder / "d.exr", "--quiet"}, kSmall)));

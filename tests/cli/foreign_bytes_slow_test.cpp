@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that are no UTF-8, in the names of files and in what pictures carry: results are told all the same.
+// Bytes that are not UTF-8, in file names and in metadata of pictures: results are still printed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace fastsplat::cli_test {
 namespace {
 
 const std::string kName = "caf\xe9";            // Latin-1
-const std::string kAsUtf8 = "caf\xef\xbf\xbd";  // what JSON can say of it
+const std::string kAsUtf8 = "caf\xef\xbf\xbd";  // as JSON can hold it
 
 /// The run's JSON, once from a file and once from stdout; `--json` and `--quiet` are added here.
 nlohmann::json result_of(const TempFolder& folder, std::vector<std::string> arguments) {
@@ -70,7 +70,7 @@ TEST(ForeignBytes, ASceneThatTomlCannotHoldIsRefusedBeforeTheWork) {
   EXPECT_EQ(folder.entries(), before);
 }
 
-/// Neither stdout nor stderr nor a page holds what a terminal obeys.
+/// Neither stdout nor stderr nor a page holds terminal control bytes.
 TEST(ForeignBytes, ControlBytesOfNamesAreEscapedEverywhere) {
   const TempFolder folder;
   const std::string name =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbered names, and which of them are refused.
+// Numbered names, and the refused ones.
 #include "cli/frame_names.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/gallery.md is what docs/gallery.toml generates, its pictures are there and small, its commands run.
+// docs/gallery.md is generated from docs/gallery.toml; its pictures exist and are small; its commands run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(Gallery, PicturesAndPagesAreThere) {
   std::printf("[figure] gallery_pictures = %zu, largest %ju bytes (limit %ju)\n", pictures.size(), largest, kLargest);
   ASSERT_GT(pictures.size(), 0u);
   ASSERT_GT(pages.size(), 0u);
-  // Nothing lies about that no entry shows.
+  // No picture without an entry.
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(kRoot / "docs/images/gallery")) ++files;
   EXPECT_EQ(files, pictures.size());
@@ -58,7 +58,7 @@ std::size_t number_at(const std::string& bytes, std::size_t at) {
   return number;
 }
 
-/// What the PNG says of its origin (its tEXt chunks "fastsplat:...") in lines, without its size.
+/// The origin in the PNG (its tEXt chunks "fastsplat:...") in lines, without its size.
 std::vector<std::string> origin_of(const fs::path& png) {
   const std::string bytes = read_bytes(png);
   std::vector<std::string> lines;
@@ -75,8 +75,8 @@ std::vector<std::string> origin_of(const fs::path& png) {
   return lines;
 }
 
-// A command or a built-in scene that was changed leaves its picture behind; the picture knows what it was made of.
-// Settings that are newer than the picture are at their default, or it would have been rendered again.
+// When a command or a built-in scene changes, its picture is out of date; the picture records its inputs. Settings
+// newer than the picture are at their default, or it would have been rendered again.
 TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
   const TempFolder folder;
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
@@ -97,7 +97,7 @@ TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
       ++skipped;
       continue;
     }
-    // As small as may be: here the flags count, not the picture.
+    // As small as possible: this tests the flags, not the picture.
     std::istringstream words(std::regex_replace(command, std::regex(" --size [^ ]+"), "") + " --size 20 --quiet");
     std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
     arguments.insert(arguments.end(), {"--out", folder / "picture.png"});
@@ -105,7 +105,7 @@ TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
     expect_success(fastsplat(arguments));
     const auto now = origin_of(folder / "picture.png");
     const auto then = origin_of(kRoot / "docs" / pictures[i]);
-    // A scene of Gaussians is told in fewer lines, for its view is one of them.
+    // A scene of Gaussians has fewer lines, because its view is one of them.
     const bool gaussians = command.find("--gaussians") != std::string::npos;
     EXPECT_GT(then.size(), gaussians ? 6u : 10u) << pictures[i] << " does not state its origin";
     for (const auto& line : then) {

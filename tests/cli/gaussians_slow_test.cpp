@@ -55,7 +55,7 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
   expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
 }
 
-// Axis, anti-aliasing and colours as the header has them; --up counts before it.
+// Axis, anti-aliasing and colours follow the header; --up takes precedence.
 TEST(GaussiansRun, FollowsTheHeader) {
   const TempFolder folder;
   const std::string ply = read_bytes(kShells);
@@ -81,7 +81,7 @@ TEST(GaussiansRun, FollowsTheHeader) {
   EXPECT_TRUE(same("declared.exr", "plain.exr"));
   EXPECT_EQ(drawn("mip", "comment SplatRenderMode: mip\n", {})["antialiased"], true);
   EXPECT_FALSE(same("mip.exr", "plain.exr"));
-  // The same numbers, shown otherwise.
+  // The same numbers, presented otherwise.
   EXPECT_EQ(drawn("linear", "comment color_space: linear\n", {})["linear"], true);
   EXPECT_TRUE(same("linear.exr", "plain.exr"));
   EXPECT_FALSE(same("linear.png", "plain.png"));

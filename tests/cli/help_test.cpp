@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What help, man pages and completion say of the subcommands: all of it, whatever the subcommands come to be.
+// Help, man pages and completion cover all subcommands, without a list in this test.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -15,7 +15,7 @@ using Words = std::vector<std::string>;
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-/// What lies between `from` and the next `to`; empty where there is no such part.
+/// The text between `from` and the next `to`; empty if there is none.
 std::string part_of(const std::string& text, const std::string& from, const std::string& to) {
   const auto begin = text.find(from);
   if (begin == text.npos) return {};
@@ -28,7 +28,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// Counts the flags of all subcommands that `is_there` finds.
+/// Counts the flags of all subcommands for which `is_there` holds.
 template <class IsThere>
 void every_flag(const char* where, const IsThere& is_there) {
   int subcommands = 0, flags = 0, missing = 0;
@@ -57,7 +57,7 @@ TEST(Help, DescriptionsAreWhatTheVerbsDeclare) {
     EXPECT_EQ(all[at + 1].summary, all_subcommands()[at].summary);
     EXPECT_EQ(all[at + 1].group, all_subcommands()[at].declare == nullptr);
   }
-  // CLI11's own list of flags: a flag declared without a description shows.
+  // CLI11's own list of flags shows flags declared without a description.
   for (const Description& subcommand : all) {
     std::istringstream names(subcommand.name);
     const Words words{std::istream_iterator<std::string>(names), {}};
@@ -140,7 +140,7 @@ TEST(Help, ShellsAndVerbsThatThereAreNotAreRefused) {
   }
 }
 
-/// The words of an example up to its pipe or redirection, as a shell takes them.
+/// The words of an example up to its pipe or redirection, as a shell splits them.
 Words words_of(const std::string& command) {
   Words words;
   std::string word;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manners of the program among others: pages that man reads, completion in real shells, examples that run, and all
-// of it where `cmake --install` puts it.
+// The program in its environment: man reads its pages, real shells complete it, its examples run, and `cmake --install`
+// installs all of it.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -25,7 +25,7 @@ std::string script(const TempFolder& folder, const std::string& shell) {
   return folder.write("fastsplat." + shell, printed.out);
 }
 
-/// What bash offers at the end of each line.
+/// The completions that bash offers at the end of each line.
 std::map<std::string, std::set<std::string>> offered(const Words& lines, const TempFolder& folder) {
   Words command{"bash", "--norc", FASTSPLAT_SOURCE_DIR "/tests/cli/completion_helper.bash", script(folder, "bash")};
   command.insert(command.end(), lines.begin(), lines.end());
@@ -55,7 +55,7 @@ TEST(Completion, BashOffersVerbsFlagsNamesAndFiles) {
   folder.write("shells of mine.nrrd", "");
   fs::create_directory(folder.path() / "plots");
   using Set = std::set<std::string>;
-  // Line, what is offered there and nothing else.
+  // A line, and exactly the completions offered there.
   const std::vector<std::pair<std::string, Set>> exactly{
       {"fastsplat re", {"render", "report"}},
       {"fastsplat stream ", {"record", "dump", "replay", "vectors"}},
@@ -68,7 +68,7 @@ TEST(Completion, BashOffersVerbsFlagsNamesAndFiles) {
       {"fastsplat render --volume head --size 64 --engine cmodel --config t", {"tiny"}},
       {"fastsplat render --config=s", {"small", "scene.toml", "shells of mine.nrrd"}},
       {"fastsplat render --scene sc", {"scene.toml"}},
-      {"fastsplat render --scene demo:ter", {"terrain"}},  // bash keeps what lies before the colon
+      {"fastsplat render --scene demo:ter", {"terrain"}},  // bash keeps the part before the colon
       {"fastsplat render --index blit", {"blit2d"}},
       {"fastsplat render --set radial.en", {"radial.entries="}},
       {"fastsplat render --azimuth ", {}},
@@ -150,8 +150,8 @@ TEST(Completion, FishOffersWhatItsScriptSays) {
     here.environment = {"HOME=" + folder.path().string(), "XDG_CONFIG_HOME=" + folder.path().string()};
     const auto result = run_words({"fish", "-c", "source " + file + "; complete -C '" + line + "'"}, here);
     EXPECT_EQ(result.err, "");
-    // Fish 4 also offers words that hold the letters in this order, --slab-width of --sh; the script decides on these
-    // only.
+    // Fish 4 also offers words that contain the letters in this order, --slab-width for --sh; only the script's own are
+    // checked.
     const std::string begun = line.substr(line.rfind(' ') + 1);
     std::set<std::string> words;
     std::istringstream lines(result.out);
@@ -208,7 +208,7 @@ TEST(Manual, APageAsItIsPrinted) {
 
 TEST(Examples, AllRun) {
   const TempFolder folder;
-  // What an example takes from the repository, small.
+  // The files of the repository that examples use, small.
   fs::create_directories(folder.path() / "configs/plans");
   folder.write("configs/plans/word-lengths.toml",
                "kind = \"compare\"\n[constants]\nvolume = \"shells:16\"\nsize = 32\n[axes]\n"
@@ -250,7 +250,7 @@ TEST(Install, PutsProgramModulePagesAndCompletionInPlace) {
                            "share/fish/vendor_completions.d/fastsplat.fish"}) {
     EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
   }
-  // What is installed is what this program says, and it finds its module.
+  // The installed program is this one, and it finds its module.
   EXPECT_EQ(read_bytes(folder / "share/bash-completion/completions/fastsplat"), fastsplat({"completion", "bash"}).out);
   EXPECT_EQ(read_bytes(folder / "share/man/man1/fastsplat-render.1"), fastsplat({"help", "--man", "render"}).out);
   expect_success(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rule for a word that names nothing: exit 2 where it is a name, 3 where it is a file; hints that are near; what
-// the machine offers.
+// Unknown names exit with 2, missing files with 3; suggestions are close; the machine's programs are listed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -85,7 +84,7 @@ TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
   }
   std::printf("[figure] programs = %zu, found = %d (limit > 0)\n", json.at("programs").size(), found);
   EXPECT_GT(found, 0);
-  // Where there are no programs, they are missing.
+  // Without the programs they are reported missing.
   Surroundings bare;
   bare.environment = {"PATH=/nonexistent"};
   const auto without = nlohmann::json::parse(fastsplat({"doctor", "--json", "-"}, bare).out);
@@ -95,8 +94,7 @@ TEST(Names, DoctorLooksAtEveryLibraryAndProgram) {
   EXPECT_NE(missing.find("apt-get install verilator"), std::string::npos) << missing;
 }
 
-// One that hangs with a child, one that is another program of the name, one that fails, one that says its version
-// oddly.
+// A program that hangs with a child, another program of the same name, one that fails, one with an odd version.
 TEST(Names, DoctorAsksProgramsAndDoesNotWaitForThem) {
   const TempFolder folder;
   const auto program = [&](const std::string& name, const std::string& body) {

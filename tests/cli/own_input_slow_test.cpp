@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// No result replaces a file that the command reads: refused with exit 2 before any work, whatever the file is called.
+// No result replaces an input file of its command: exit 2 before any work, whatever the file is called.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class OwnInput : public ::testing::Test {
                   "8\n[sequence]\nframes = 2\ncamera.zoom = [1, 2]\n");
   }
 
-  /// The file that is in danger, and the command.
+  /// The file in danger, and the command.
   struct Danger {
     std::string file;
     std::vector<std::string> command;
@@ -131,12 +131,12 @@ TEST_F(OwnInput, EveryVerbThatReadsFilesIsAmongThem) {
     const std::string name = subcommand.name;
     if (subcommand.declare == nullptr || name == "doctor" || name == "config list" || name == "family" ||
         name == "completion" || name == "help")
-      continue;  // these read none
+      continue;  // these read no files
     EXPECT_TRUE(tried.contains(name)) << name << " reads files: what does it do to them?";
   }
 }
 
-// By what the file is: a link, a hard link, another way to it.
+// By the file's identity: a link, a hard link, another path.
 TEST_F(OwnInput, UnderAnotherNameIsTheSameFile) {
   std::filesystem::create_symlink("in.nrrd", folder_ / "link.nrrd");
   std::filesystem::create_hard_link(volume_, folder_ / "hard.nrrd");
@@ -148,7 +148,7 @@ TEST_F(OwnInput, UnderAnotherNameIsTheSameFile) {
   }
 }
 
-// A name that is built in is no file, even where a file of that name is about to be.
+// A built-in name is not a file, even if the command is about to write a file of that name.
 TEST_F(OwnInput, BuiltInNamesAreNotFiles) {
   Surroundings here;
   here.folder = folder_.path();

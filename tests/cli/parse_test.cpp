@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line, parsed: what the flags become, and what is said when words make no sense.
+// The parsed command line: the values of flags, and the messages for wrong combinations.
 #include <gtest/gtest.h>
 
 #include <map>

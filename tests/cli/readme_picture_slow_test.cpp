@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures at the top of README.md are those of one run, and so are the figures below them.
+// The pictures at the top of README.md come from one run, and so do the figures below them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = FASTSPLAT_SOURCE_DIR;
 
-/// Whether `text`, "68.9", is `value` rounded to as many digits.
+/// Whether `text`, such as "68.9", is `value` rounded to as many digits.
 bool rounded_to(const std::string& text, double value) {
   const auto point = text.find('.');
   const double unit = std::pow(10.0, point == text.npos ? 0.0 : -static_cast<double>(text.size() - point - 1));

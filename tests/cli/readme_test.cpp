@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// README.md: its figures stand in the pages that it names, its doors lead to every subcommand.
+// README.md: its figures are on the pages that it names; its doors lead to every subcommand.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -51,7 +51,7 @@ TEST(ReadmeMustFail, SeesAFigureThatThePageDoesNotHave) {
   EXPECT_EQ(figures, 2);
 }
 
-// A newcomer reaches all that the program does from one of the doors.
+// Every subcommand is reachable from one of the doors.
 TEST(Readme, DoorsReachEverySubcommand) {
   std::string doors;
   for (const char* page : {"docs/verify-rtl.md", "docs/size-a-device.md", "docs/compare-pictures.md",

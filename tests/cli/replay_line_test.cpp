@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line that replays a failure, as a shell reads it back.
+// The line that replays a failure, as a shell parses it.
 #include "cli/replay_line.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTL of a configuration that nobody prepared: built at its first use, found at the next, never half there.
+// RTL of a new configuration: built at its first use, found at the next, never left half built.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -25,7 +25,7 @@ class RtlOnDemand : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return fastsplat(words, here);
   }
-  /// Files below the cache that end so.
+  /// Files below the cache with this ending.
   int files(const std::string& ending) {
     int count = 0;
     std::error_code none;

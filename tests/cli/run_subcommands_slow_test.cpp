@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run and tools/, the scripts: each prints its help, and unknown arguments are refused before anything is installed,
-// configured or built. They lie in a tree of their own, among programs that only write down that they were called.
+// ./run and the scripts in tools/: each prints its help; unknown arguments are refused before anything is installed,
+// configured or built. They run in a copied tree, among programs that only record their calls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// A copy of ./run and tools/ with what they read beside them, and nothing that could be built.
+/// A copy of ./run and tools/ with their data files, and nothing that could be built.
 class Tree {
  public:
   Tree() {
@@ -32,7 +32,7 @@ class Tree {
     before_ = folder_.entries();
   }
 
-  /// Puts a program in the way of the system's; it writes its name into `called` first.
+  /// Shadows a program of the system; it writes its name into `called` first.
   void put(const std::string& tool, const std::string& script) const {
     const std::string path = folder_.write(
         "stubs/" + tool, "#!/bin/sh\necho " + tool + " >>'" + (folder_ / "called") + "'\n" + script + "\n");
@@ -43,14 +43,14 @@ class Tree {
     Surroundings here;
     here.folder = folder_.path();
     here.environment = {"PATH=" + (folder_ / "stubs") + ":" + std::getenv("PATH")};
-    // A script of tools/ is called by its name, everything else is a command of run.
+    // Scripts of tools/ are called by name; all else are commands of ./run.
     const bool tool = fs::exists(folder_.path() / "tools" / words.front());
     Words all{folder_ / (tool ? "tools/" + words.front() : "run")};
     all.insert(all.end(), words.begin() + (tool ? 1 : 0), words.end());
     return run_words(all, here);
   }
 
-  /// Nothing was made in it, and none of the programs called.
+  /// Nothing was created in the tree, and none of the programs was called.
   void expect_untouched() const { EXPECT_EQ(folder_.entries(), before_); }
   std::string operator/(const std::string& name) const { return folder_ / name; }
 
@@ -185,7 +185,7 @@ TEST(RunCommands, UnknownCommandsAreRefusedAndNothingIsBuilt) {
   tree.expect_untouched();
 }
 
-// Those that are known get as far as the packages, of which there are none here.
+// Known packages get as far as the package manager, of which this tree has none.
 TEST(RunCommands, KnownCommandsAreRun) {
   const std::vector<Words> right{{"test", "-L", "fast", "-R", "Name", "-j2", "--timeout=9", "-VV"},
                                  {"bench", "--benchmark_filter=rtl"},
@@ -240,7 +240,7 @@ TEST(RunCommands, UnknownTargetsAreRefusedBeforeTheBuild) {
   fs::remove(tree / "build/one");
   expect_refusal(tree.run({"build", "one", "two"}), {"build", "'two'", "targets"});
   EXPECT_FALSE(fs::exists(tree / "build/one"));
-  // Of files that the build has not looked at since they changed.
+  // Files changed since the build last looked at them.
   std::ofstream(tree / "more") << "a target\n";
   expect_success(tree.run({"build", "one", "two"}));
   EXPECT_TRUE(fs::exists(tree / "build/two"));

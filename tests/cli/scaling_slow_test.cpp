@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fastsplat cycles --devices N --bytes-per-cycle B --clock MHZ`: one device is the plain command, figures agree with
-// each other, the limit is what was built to be it.
+// `fastsplat cycles --devices N --bytes-per-cycle B --clock MHZ`: one device equals the plain command, figures agree
+// with each other, and the limit is the one that the case was built for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST(Scaling, ARecordedStreamIsItsScene) {
   const Words flags{"--devices", "3", "--bytes-per-cycle", "20"};
   const auto scene = result_of(kScene + flags);
   const auto stream = result_of(Words{"--stream", folder / "s.fss"} + Words(kScene.begin() + 4, kScene.end()) + flags);
-  // The stream's only further record, end_frame, comes while a picture goes out.
+  // The stream has one more record, end_frame, which comes while a picture is output.
   for (const auto* key : {"frame_cycles", "shares", "each", "limit"})
     EXPECT_EQ(scene["scaling"][key], stream["scaling"][key]);
   EXPECT_EQ(scene["cycles"]["account"], stream["cycles"]["account"]);
@@ -119,7 +119,7 @@ TEST(Scaling, FiguresAgreeWithEachOther) {
   std::printf("[figure] frames whose figures agree = %d\n", frames);
 }
 
-/// A list of numbers is each of them.
+/// A list of numbers gives the rows of each number.
 TEST(Scaling, SeveralNumbersAreEachByItself) {
   int alike = 0;
   for (const std::string list : {"1,2,4,8", "3,5"}) {
@@ -147,7 +147,7 @@ TEST(Scaling, SeveralNumbersAreEachByItself) {
     EXPECT_NE(run.out.find(word), std::string::npos) << word << run.out;
 }
 
-/// What is built to be the limit is named, with what would help.
+/// The built-in limit is named, with a suggestion.
 TEST(Scaling, NamesTheLimit) {
   const auto expect_limit = [](const Words& words, const std::string& name, const std::string& said) {
     const auto limit = result_of(words)["scaling"]["limit"];
@@ -156,7 +156,7 @@ TEST(Scaling, NamesTheLimit) {
   };
   expect_limit(kScene + Words{"--devices", "4", "--bytes-per-cycle", "8"}, "bandwidth",
                "128 are equivalent to no limit");
-  // Most devices have no tile at all, but no tile would come faster if they had.
+  // Most devices get no tile, but more tiles would not make it faster.
   expect_limit(kScene + Words{"--devices", "40", "--bytes-per-cycle", "2"}, "bandwidth", "bytes a cycle");
   expect_limit(kScene + Words{"--devices", "1", "--input", "every-20"}, "bandwidth", "--input");
   expect_limit(kScene + Words{"--devices", "40"}, "tail", "16 tiles for 40 devices");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and its kin: exit 130, no temporary file, nothing under the final name.
+// Ctrl-C and other signals: exit 130, no temporary file, no file under the final name.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -9,7 +9,7 @@
 namespace fastsplat::cli_test {
 namespace {
 
-// Long enough that no machine finishes it before the signal comes.
+// Too long for any machine to finish before the signal.
 std::vector<std::string> long_recording(const std::string& out) {
   return {"stream", "record", "--volume", "shells:200", "--size", "2000", "--slab-width", "0.25", "-o", out, "--quiet"};
 }
@@ -50,7 +50,7 @@ TEST(Signals, CtrlCWhileRenderingIsExit130) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
-// The folder that it made goes, too; one that was there stays.
+// A folder that it created is removed; one that existed stays.
 TEST(Signals, CtrlCWhileWritingVectorsRemovesTheFolder) {
   const TempFolder folder;
   expect_success(fastsplat(

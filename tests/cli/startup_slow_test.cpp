@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every run pays before it does anything: the image library, hundreds of libraries deep, is loaded for pictures
-// alone.
+// The start-up cost of every run: the image library, with its hundreds of libraries, is loaded for pictures only.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -21,7 +20,7 @@ constexpr const char* kTag = "fastsplat-codec ";
 
 using Words = std::vector<std::string>;
 
-/// Commands that meet no picture, each on next to no work.
+/// Commands without pictures, with minimal work.
 const std::vector<Words> kWithoutPictures{
     {"--version"},
     {"help"},
@@ -92,7 +91,7 @@ TEST(StartUp, TakesLessThanATwentiethOfASecond) {
   GTEST_SKIP() << "the sanitizer's own start is longer";
 #endif
   constexpr double kLimit = 0.05;
-  constexpr int kRuns = 20;  // the least of them: other work on the machine only adds
+  constexpr int kRuns = 20;  // the minimum: other work on the machine only adds
   for (const auto& arguments : kWithoutPictures) {
     double least = 1e9;
     for (int run = 0; run < kRuns; ++run) {
@@ -106,7 +105,7 @@ TEST(StartUp, TakesLessThanATwentiethOfASecond) {
   }
 }
 
-/// A program copied out of its build, with what lies beside it.
+/// A program copied out of its build, with the files beside it.
 class Copied {
  public:
   Copied() {
@@ -116,7 +115,7 @@ class Copied {
   std::string bin(const std::string& name) const { return folder_ / ("bin/" + name); }
   std::string operator/(const std::string& name) const { return folder_ / name; }
   static fs::path module() { return fs::path(program()).parent_path() / kModule; }
-  /// Golden takes minutes for this: a refusal that comes after the work is a time-out.
+  /// Golden takes minutes for this: a refusal after the work is a time-out.
   Result render_for_minutes(const Words& environment = {}) const {
     return run_words({bin("fastsplat"), "render", "--volume", "shells:256", "--size", "4096", "-o", folder_ / "a.png"},
                      with_environment(environment));
@@ -136,7 +135,7 @@ class Copied {
 TEST(StartUp, AMissingModuleIsReportedBeforeTheWork) {
   const Copied copied;
   copied.expect_refused(copied.render_for_minutes(), {kModule, "missing", "/lib/fastsplat/", "./run build"});
-  // What else is wrong with a command is reported first: the library costs a quarter of a second.
+  // Other errors of a command come first: the library costs a quarter of a second.
   const std::string raw = copied / "a.exr";
   const std::vector<Words> wrong{
       {"render", "--volume", "shells:8", "--size", "0", "-o", raw},
@@ -190,7 +189,7 @@ TEST(StartUp, AModuleThatCannotBeLoadedIsRefused) {
     std::ofstream(copied.bin(kModule)) << "no library";
     copied.expect_refused(copied.render_for_minutes(), {kModule, "cannot be loaded", "tools/debian.txt"});
   }
-  // A library that it needs is broken.
+  // A required library is broken.
   const Copied copied;
   fs::copy_file(Copied::module(), copied.bin(kModule));
   std::string needed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands that read streams and configurations, at what they cannot take: told with file and place, before what
-// can be told of the rest is lost.
+// Subcommands that read streams and configurations, on invalid ones: the message has file and place, and comes after
+// the valid part was printed.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -24,7 +24,7 @@ class StreamSubcommands : public ::testing::Test {
   const std::string stream_ = folder_ / "s.fss";
 };
 
-// Nobody writes to it: whoever opens it to read would wait for ever.
+// No writer: opening it for reading would block for ever.
 TEST_F(StreamSubcommands, PipesAreNotFiles) {
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -44,7 +44,7 @@ TEST_F(StreamSubcommands, PipesAreNotFiles) {
       {"compare", pipe, pipe}};
   for (const auto& command : commands) {
     SCOPED_TRACE(command[0] + " " + command[1]);
-    // A process that hangs is ended by the signal, long before the helper's patience ends.
+    // A hanging process is ended by the signal, long before the helper times out.
     std::vector<std::string> words{"timeout", "10", program()};
     words.insert(words.end(), command.begin(), command.end());
     const auto run = run_words(words);
@@ -82,7 +82,7 @@ TEST_F(StreamSubcommands, ADumpPrintsTheBeatsAndThenTheError) {
     EXPECT_GT(json.at("records").size(), 10u);
     EXPECT_TRUE(json.contains("error"));
   }
-  // Whoever wants four records gets four.
+  // A limit of four records prints four.
   expect_success(fastsplat({"stream", "dump", folder_ / "d.fss", "--limit", "4"}));
 }
 
@@ -154,7 +154,7 @@ TEST_F(StreamSubcommands, AResetBehindTheEndIsRefused) {
   const auto beats = std::to_string(read_bytes(stream_).size() / cmodel::kBeatBytes);
   EXPECT_NE(run.err.find("at most " + beats), std::string::npos) << run.err;
   EXPECT_EQ(fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", beats}).code, 0);
-  // Random streams are of many lengths: those that are shorter are counted.
+  // Random streams have many lengths: shorter ones are counted.
   const auto random = fastsplat({"verify", "--random", "50", "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(random.code, 0);
   EXPECT_NE(random.err.find("streams are shorter, and were reset after their last beat"), std::string::npos)

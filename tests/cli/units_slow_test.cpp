@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two units of the integer model as a user meets them, and what is said of words that were cut.
+// The two units of the integer model as a user sees them, and the message about cut words.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -58,7 +58,7 @@ TEST(Units, GoldenDrawsTheSamePictureEitherWay) {
   std::printf("[figure] golden methods equal with and without --plain = %d\n", compared);
 }
 
-// cycles counts hidden splats as render does, and says what is odd about a volume, as verify does.
+// cycles counts hidden splats as render does, and warns about odd volumes as verify does.
 TEST(Units, CyclesPrintsTheSplatsOnTerminatedBlocks) {
   const TempFolder folder;
   const Words scene{"--volume", "binary-cube:32", "--tf", "ct-head", "--size", "64", "--config", "base"};
@@ -76,7 +76,7 @@ TEST(Units, CyclesPrintsTheSplatsOnTerminatedBlocks) {
   EXPECT_GT(share, 0.05);
   EXPECT_DOUBLE_EQ(share, render["units"]["hidden_splats"].get<double>() / render["counters"]["splats"].get<double>());
 
-  // render counts by bands of a tile, and of a splat that reaches two only what becomes of it in the first.
+  // render counts by bands of a tile; a splat that reaches two bands is counted once, in the first.
   const Words tall{"--volume", "binary-cube:32", "--tf",   "ct-head", "--size", "128",
                    "--config", "base",           "--json", "-",       "--quiet"};
   const auto of = [&](Words words) {
@@ -102,7 +102,7 @@ TEST(Units, CyclesPrintsTheSplatsOnTerminatedBlocks) {
 
 TEST(Units, SaturatedSumsAreReported) {
   const TempFolder folder;
-  // Every pixel with something in it is far above what the sheet holds: all tiles are the plain unit's.
+  // Every non-empty pixel is far above the range of the sheet: the plain unit draws all tiles.
   const Result cut = render(folder, "cut.exr",
                             {"--engine", "cmodel", "--config", "compact", "--method", "xray", "--xray-exposure", "50"});
   expect_success(cut);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comforts of a verification day, through the program: faults on purpose, waveforms of chosen cycles, all mismatches in
-// one table, random streams as files, JUnit XML, jobs.
+// Conveniences for verification through the program: planted faults, waveforms of chosen cycles, a table of all
+// mismatches, random streams as files, JUnit XML, jobs.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -24,7 +24,7 @@ class VerifyComforts : public ::testing::Test {
   nlohmann::json json_of(const std::string& name = "result.json") const {
     return nlohmann::json::parse(read_bytes(folder_ / name));
   }
-  /// A line of the program's, run as it stands.
+  /// A command line that the program printed, run unchanged.
   Result again(const std::string& line, const std::vector<std::string>& more) const {
     std::istringstream words(line);
     std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
@@ -59,14 +59,14 @@ TEST_F(VerifyComforts, APlantedFaultIsInEveryFormat) {
   const auto junit = read_bytes(folder_ / "result.xml");
   EXPECT_NE(junit.find("<failure message=\"planted fault FORWARD_3 ("), std::string::npos) << junit;
   EXPECT_NE(junit.find(" seed 1 mixed\""), std::string::npos) << junit;
-  // The replay plants it again.
+  // The replay plants the fault again.
   const auto replayed = again(json.at("failure").at("replay"), {"--json", "again.json"});
   EXPECT_EQ(replayed.code, 1) << replayed.err;
   EXPECT_EQ(json_of("again.json").at("planted_fault").at("name"), "FORWARD_3");
 }
 
 TEST_F(VerifyComforts, AnUnseenFaultIsNotAPass) {
-  // Memories that a reset does not wipe, where they are empty at power-up and nothing resets again.
+  // Memories that a reset does not wipe, empty at power-up, without a second reset.
   const auto run = verify({"--random", "60", "--class", "hazards", "--fill", "zero", "--fault", "MISSED_WIPE", "--json",
                            "result.json", "--junit", "result.xml"});
   ASSERT_EQ(run.code, 1) << run.out << run.err;
@@ -82,7 +82,7 @@ TEST_F(VerifyComforts, AnUnseenFaultIsNotAPass) {
 }
 
 TEST_F(VerifyComforts, AFaultAtThePortsIsSeenInAScene) {
-  // It lies in the middle of its tile: block 1 is never composited.
+  // A fault in the middle of its tile: block 1 is never composited.
   for (const char* fault : {"PORT_LOST", "PORT_COMPOSITE"}) {
     const auto run = verify(
         {"--volume", "shells:12", "--size", "24x24", "--config", "tiny", "--fault", fault, "--json", "result.json"});
@@ -134,7 +134,7 @@ TEST_F(VerifyComforts, AWaveformHoldsTheCyclesThatWereAskedFor) {
     for (const char* line : {"[dumpfile] \"run.fst\"\n", "-beats in\n", "fastsplat_dut.s_tdata_i[255:0]\n",
                              "-u_splat\n", "fastsplat_dut.u_top.u_core.u_splat.clk_i\n"})
       EXPECT_NE(view.find(line), std::string::npos) << line << view;
-    // Two times a cycle, at the rising edge of the clock and behind the falling one.
+    // Two times a cycle, at the rising edge of the clock and after the falling one.
     const auto [first, last] = times_of(read_bytes(folder_ / "run.fst"));
     std::printf("[figure] %s: times of the waveform = %llu to %llu (expected 201 to 302)\n", what[0].c_str(),
                 static_cast<unsigned long long>(first), static_cast<unsigned long long>(last));
@@ -158,7 +158,7 @@ TEST_F(VerifyComforts, WaveformsThatCannotBeAreRefused) {
                {"--wave", "18 streams", "--class"});
   expect_error(fastsplat({"render", "--volume", "shells:8", "--wave", "a.fst"}), 2,
                {"--wave", "golden", "--engine rtl"});
-  // Behind the run's end: the result is told, the waveform is not there.
+  // After the run's end: the result is printed, the waveform does not exist.
   const auto late = with({"--wave", "a.fst", "--cycles", "1000000..1000001", "--json", "result.json"});
   EXPECT_EQ(late.code, 2);
   EXPECT_NE(late.err.find("the run ends before these cycles"), std::string::npos) << late.err;
@@ -184,7 +184,7 @@ TEST_F(VerifyComforts, AllMismatchesGoOnToTheEnd) {
               static_cast<unsigned long long>(sheet));
   EXPECT_GT(sheet, 20u);
   EXPECT_EQ(sheet, json.at("mismatches").get<std::uint64_t>()) << "nothing else is wrong";
-  // Every seventh splat of a tile, and no other: as many as the rows say when all are asked for.
+  // Every seventh splat of a tile, and no other: the count equals the rows when all are printed.
   EXPECT_NE(run.out.find("\nby tap: snap 0, footprint 0, sheet "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("\nseed  class"), std::string::npos) << run.out;
 }

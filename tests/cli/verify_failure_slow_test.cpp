@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `verify` says of an RTL that is wrong, through the program built with one (tests/wrong_rtl): the failure first,
-// whatever becomes of its files.
+// `verify` of a wrong RTL (tests/wrong_rtl), through a program built with it: the failure comes first, whatever happens
+// to its files.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ TEST_F(VerifyFailure, IsShrunkAndReplayed) {
   EXPECT_EQ(failure.at("splats_after"), 7) << "the seventh is the first that is wrong";
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fss"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure.fst"));
-  // The line it prints, run as it stands: a legal stream, as every reader sees it, that fails alike.
+  // The printed command line, run unchanged: a legal stream for every reader, which fails in the same way.
   std::istringstream line(failure.at("replay").get<std::string>());
   std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
   ASSERT_GT(words.size(), 2u);
@@ -47,7 +47,7 @@ TEST_F(VerifyFailure, IsShrunkAndReplayed) {
       fastsplat({"stream", "replay", folder_ / "verify-failure.fss", "--config", "tiny", "-o", folder_ / "a.exr"}));
 }
 
-// The pixel that is named lies in the tile, and is that of the operands below.
+// The named pixel lies in the tile, and the operands below belong to it.
 TEST_F(VerifyFailure, NamesThePixelAndNotTheWindow) {
   for (const std::string stimulus : {"screen-edges", "mixed", "multi-window"}) {
     const auto run = verify({"--random", "300", "--class", stimulus, "--json", "result.json"}, here_);
@@ -73,7 +73,7 @@ TEST_F(VerifyFailure, OfASceneCountsTheWorkDone) {
 }
 
 TEST_F(VerifyFailure, IsReportedBeforeItsFiles) {
-  // Nothing but what is short can be written: neither the stream nor the waveform.
+  // Only short files can be written: neither the stream nor the waveform.
   here_.largest_file = 300;
   const auto run = verify({"--random", "300", "--json", "-"}, here_);
   EXPECT_EQ(run.code, 1) << run.err;
@@ -105,7 +105,7 @@ TEST_F(VerifyFailure, KeepsTheFilesOfAnEarlierOne) {
   EXPECT_TRUE(read_bytes(folder_ / "verify-failure.fss") == first);
   EXPECT_NE(second.out.find("verify-failure-2.fss"), std::string::npos) << second.out;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "verify-failure-2.fss"));
-  // A name that was given is taken, and what goes is said.
+  // A given name is used, and files that are replaced are reported.
   EXPECT_EQ(verify({"--random", "300", "--failure", "mine"}, here_).err.find("will be replaced"), std::string::npos);
   const auto again = verify({"--random", "300", "--failure", "mine"}, here_);
   EXPECT_NE(again.err.find("mine.fss of an earlier failure will be replaced"), std::string::npos) << again.err;

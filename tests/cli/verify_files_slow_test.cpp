@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a failing verify: whose they are when several runs fail at once, that nothing of them stays when a run
-// is interrupted, and that where they cannot be written a verdict is a verdict.
+// The files of a failing verify: several runs at once keep theirs apart, an interrupted run leaves none, and the
+// verdict does not depend on them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -49,7 +49,7 @@ TEST_F(VerifyFiles, OfRunsThatFailAtOnceAreEachItsOwn) {
     const auto failure = json_of("result-" + seed + ".json").at("failure");
     streams.insert(failure.at("stream"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / failure.at("waveform").get<std::string>()));
-    // The line that was printed, run: it fails as the run did that printed it.
+    // The printed command line fails as the run that printed it.
     std::istringstream line(failure.at("replay").get<std::string>());
     Words words{std::istream_iterator<std::string>(line), {}};
     words.erase(words.begin());
@@ -73,7 +73,7 @@ TEST_F(VerifyFiles, DoNotTakeANameOfTheSameCommand) {
   EXPECT_EQ(json_of("result.json").at("wave").at("file"), "verify-failure.fst");
 }
 
-// /proc takes no file of anybody's.
+// /proc accepts no files.
 TEST_F(VerifyFiles, AreNotNeededToPass) {
   here_.folder = "/proc";
   const auto run = fastsplat({"verify", "--random", "100", "--config", "tiny"}, here_);
@@ -92,7 +92,7 @@ TEST_F(VerifyFiles, ThatCannotBeLeaveTheVerdict) {
   EXPECT_EQ(failure.at("waveform"), "");
   EXPECT_EQ(failure.at("unwritten").size(), 1u);
   EXPECT_NE(failure.at("smallest"), "") << "it is made small all the same";
-  // A place that was named is tried before the run.
+  // A given path is tried before the run.
   expect_error(fastsplat(failing("1", {"--failure", "mine"}), here_), 3, {"mine.fss"});
 }
 
@@ -115,7 +115,7 @@ TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersAndTheVerdict) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "small.fss"));
 }
 
-// Behind a pass it is an error, and says how much of a numbered set is there.
+// After a pass it is an error, and the message counts the files of a numbered set that exist.
 TEST_F(VerifyFiles, OneThatCannotBeLeavesTheOthersOfAPass) {
   Words words{"verify", "--random", "4000", "--config", "tiny", "--save-stream", "run-##.fss", "--json"};
   auto first = words;
@@ -167,7 +167,7 @@ TEST_F(VerifyFiles, MismatchesThatAreNotCountedToTheEndSaySo) {
   };
   const auto stopped = verify({"--json", "stopped.json"}),
              all = verify({"--json", "all.json", "--all-mismatches", "1"});
-  // The run stops with a cycle, which may have several.
+  // The run stops with a cycle, which may have several mismatches.
   EXPECT_NE(stopped.out.find(" mismatches, stopped there"), std::string::npos) << stopped.out;
   EXPECT_GE(json_of("stopped.json").at("mismatches"), 1000);
   EXPECT_LT(json_of("stopped.json").at("mismatches"), 1010);
@@ -185,8 +185,8 @@ bool waveform_begun(const TempFolder& folder) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.ends_with(".hier"); });
 }
 
-// The signal goes to the program alone, as `kill` sends it: what writes the waveform has to end with it, and is waited
-// for by whoever reads its stdout.
+// The signal goes to the program alone, as from `kill`: its waveform writer has to end with it, because the reader of
+// its stdout waits for that.
 TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     here_.signal = signal;
@@ -202,14 +202,14 @@ TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
     EXPECT_LT(seconds, 5.0) << "the waveform was written to its end";
     EXPECT_FALSE(run.timed_out);
     EXPECT_EQ(run.out.find("waveform:"), std::string::npos) << "the signal came too late";
-    if (signal == SIGKILL) continue;  // nobody is left to remove anything
+    if (signal == SIGKILL) continue;  // no process is left to remove anything
     EXPECT_EQ(run.code, 128 + signal) << run.err;
     ::usleep(100'000);
     EXPECT_EQ(folder_.entries(), Words{});
   }
 }
 
-// A stream is held whole: where memory does not take it, the line says what makes it smaller.
+// A stream is held in memory: if it does not fit, the message says how to make it smaller.
 TEST_F(VerifyFiles, AStreamThatMemoryDoesNotTakeIsRefused) {
   const auto run = run_words(
       {"sh", "-c", "ulimit -v 700000; exec \"$0\" verify --random 10000000 --class mixed --config tiny", program()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scripts read of a verified run: both clocks, and that they agree.
+// A verified run for scripts: both clocks, and that they agree.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -64,7 +64,7 @@ TEST(Verify, ReportsEverySeedOfACampaign) {
   EXPECT_EQ(json.at("by_seed_left_out"), 0);
 }
 
-// RTL goes by the numbers of a configuration, not by its name.
+// RTL is found by the numbers of a configuration, not by its name.
 TEST(Verify, AFileThatEqualsAConfigurationWithRtlRunsOnIt) {
   const TempFolder folder;
   auto config = driver::load_config("tiny");
@@ -94,7 +94,7 @@ TEST(Verify, RenderWithCheckReportsThemToo) {
 }
 
 TEST(Verify, AReplayLineIsTakenAsItIs) {
-  // The line that a failure prints, run: the stream it names is verified, under what the line says.
+  // The command line that a failure prints: it verifies the stream that it names, with the same settings.
   const TempFolder folder;
   const std::string stream = folder / "a.fss";
   expect_success(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for looking and pictures for measuring, and what is said of a picture too small for the device.
+// Pictures for display and for measurement, and the message for a picture too small for the device.
 #include <gtest/gtest.h>
 
 #include "base/atomic_file.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// 0 identical, 1 not: as `compare` says.
+/// 0 identical, 1 different: as `compare` returns.
 int differs(const std::string& a, const std::string& b) {
   return fastsplat({"compare", a, b, "--max-lsb", "0", "--quiet"}).code;
 }

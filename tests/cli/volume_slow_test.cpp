@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subcommands say about a volume that is odd, and --nan-as wherever volumes are read.
+// Messages about odd volumes, and --nan-as in every subcommand that reads volumes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ TEST(VolumeSubcommands, InvalidSpacingsAreReported) {
                                      {-2.0f, "pixdim[2] is -2, which is not a length: 2 mm"}}) {
     std::string bytes = whole;
     std::memcpy(&bytes[76 + 4 * 2], &value, 4);
-    std::memset(&bytes[252], 0, 4);  // no qform, no sform: they would say what the spacing is
+    std::memset(&bytes[252], 0, 4);  // no qform, no sform: they would give the spacing
     expect_warned(fastsplat({"volume", "info", folder.write("odd.nii", bytes)}), {"warning", words});
     ++said;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words of a command line, put together.
+// Joins words of a command line.
 #pragma once
 
 #include <string>

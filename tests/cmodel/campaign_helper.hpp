@@ -20,7 +20,7 @@ struct Campaign {
 /// Streams of about `per_stream` splats until `splats` were compared; stops at the first stream that differs.
 Campaign compare_streams(const cmodel::Config& config, Random& random, std::uint64_t splats, std::uint64_t per_stream);
 
-/// A figure of what of it was ellipses.
+/// Prints how many of them were ellipses.
 void print_ellipses(const char* name, const Campaign& campaign);
 
 }  // namespace fastsplat::test

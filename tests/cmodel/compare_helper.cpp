@@ -97,7 +97,7 @@ Comparison compare(const oracle::Rendering& model, const oracle::Rendering& expe
     const oracle::Event &ours = model.events[i], &theirs = expected.events[i];
     if (!same_place(ours, theirs)) {
       differ(result, "event " + std::to_string(i) + " is " + describe(ours) + ", oracle " + describe(theirs));
-      break;  // what follows would be compared with the wrong partner
+      break;  // later records would be compared with the wrong partner
     }
     const char* count = kNames[static_cast<int>(theirs.kind)];
     if (ours.payload == theirs.payload)

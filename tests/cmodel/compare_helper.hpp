@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Model and oracle side by side: what each produced, and what differs.
+// Model and oracle side by side: their outputs, and the differences.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace fastsplat::test {
 
 enum class Taps { Off, On };
 
-/// Takes pixels and taps of a device in the oracle's terms.
+/// Converts pixels and taps of a device to the oracle's form.
 class Collector final : public cmodel::PixelSink, public cmodel::TapSink {
  public:
   void on_tile(cmodel::TilePixels&& tile) override;
@@ -37,7 +37,7 @@ struct Comparison {
   std::uint64_t total() const;
   Comparison& operator+=(const Comparison& other);
 };
-/// Word by word; an event or tile that only one of them has is a mismatch.
+/// Word by word; an event or tile that only one side has is a mismatch.
 Comparison compare(const oracle::Rendering& model, const oracle::Rendering& expected);
 
 /// Prints one figure per tap.

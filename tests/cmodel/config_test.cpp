@@ -69,7 +69,7 @@ void with_ellipses(cmodel::Config& c) {
   c = config_of(symbols, c.name);
 }
 
-/// Alone no violation, with an even tile.
+/// No violation alone, with an even tile.
 void ties_to_even_pixels(cmodel::Config& c) {
   c.lanes = c.phases = 1;
   c.rounding_snap = static_cast<int>(cmodel::Rounding::RND_CONV);
@@ -256,7 +256,7 @@ TEST(ConfigLimits, EveryLimitBetweenKeys) {
   std::printf("[figure] limits between keys broken and refused = %zu\n", std::size(kBetween));
 }
 
-// N-2-7: what just keeps a limit is taken.
+// N-2-7: values that just keep a limit are accepted.
 TEST(ConfigLimits, EdgesAreTaken) {
   cmodel::Config config = named_config("base");
   ties_to_even_pixels(config);

@@ -114,7 +114,7 @@ cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name
 
 namespace {
 
-/// What N-2-7 requires of a configuration with ellipses, as often at its edges as not.
+/// Limits of N-2-7 for a configuration with ellipses, as often at the limits as not.
 void draw_ellipses(cmodel::Config& config, Random& random) {
   const auto draw = [&](std::int64_t least, std::int64_t most) {
     if (most <= least) return static_cast<int>(least);

@@ -23,12 +23,12 @@ std::vector<std::string> config_names();
 oracle::Symbols symbols_of(const cmodel::Config& config);
 cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name);
 
-/// Legal, small enough to render quickly (tiles up to 40 pixels, up to 64 columns), otherwise anything; one key in
-/// three sits at an end of its range. Of another index.kind only if asked for, blit2d with or without symmetry.
+/// Legal, small enough to render quickly (tiles up to 40 pixels, up to 64 columns), otherwise arbitrary; one key in
+/// three is at an end of its range. Another index.kind only on request; blit2d with or without symmetry.
 cmodel::Config random_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 /// The same with ellipses, so not linear.
 cmodel::Config random_ellipse_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
-/// With densities, one in three with ellipses as well (but of linear, which has none).
+/// With densities, and one in three with ellipses as well (but not linear, which has none).
 cmodel::Config random_density_config(Random& random, cmodel::IndexKind kind = cmodel::IndexKind::Rlut);
 
 }  // namespace fastsplat::test

@@ -42,7 +42,7 @@ TEST(Counters, OfATinyFrameAreThoseOfTheHand) {
   w.cull_block(0, 0, 0, 4, 4, 1);
   // (3, 2): of 2 x 2 pixels only (3, 2) is inside the 4 x 3 tile. One block more.
   w.splat(0, 6, 4, {1, 1, 1, 1});
-  // Wholly outside: a window, no lane inside.
+  // Wholly outside: a window without a lane inside.
   w.splat(0, -16, 0, {63, 63, 63, 63});
   w.end_sheet();  // blocks (0,0): 4 pixels, (2,2): rows 2 only, 2 pixels. R and tau at 4 pixels are 31/16: 8 cut to 1.0
   w.begin_sheet(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle model of a device that culls: beat by beat against a clock, and against the device that does not cull.
+// The cycle model of a culling device: beat by beat against a clock, and against a device without culling.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
@@ -30,7 +30,7 @@ struct Tally {
   std::uint64_t beats = 0, unsent = 0, waited = 0, hidden = 0, map = 0, starved = 0, later = 0;
 };
 
-/// Every beat sent, and a source that fetches from memories of these latencies.
+/// Every beat sent, and fetching sources with memories of these latencies.
 const std::optional<std::uint64_t> kSources[] = {{}, 0, 3, 50};
 
 void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
@@ -105,12 +105,12 @@ TEST(CullCycles, AreThoseOfAClock) {
       static_cast<unsigned long long>(tally.hidden), static_cast<unsigned long long>(tally.map));
   EXPECT_GT(tally.unsent, 500U);
   EXPECT_GT(tally.waited, 500U);
-  // There are such causes (M-cull-16); which cycles are theirs is not compared.
+  // Such causes exist (M-cull-16); their cycles are not compared.
   EXPECT_GT(tally.hidden, 500U);
   EXPECT_GT(tally.map, 500U);
 }
 
-// A set whose splats a cull_block lies between has no place in memory that a source could jump over (M-fetch-6).
+// If a cull_block lies between a group's splats, memory has no place that a source could jump over (M-fetch-6).
 TEST(CullCycles, FetchedSetsLieTogether) {
   Random random(seed_or(97));
   cmodel::Config config = named_config("tiny");
@@ -144,7 +144,7 @@ TEST(CullCycles, FetchedSetsLieTogether) {
   EXPECT_GT(refused, 0);
 }
 
-// Commands, run by hand: every beat once, in order, and of each set its splats (M-fetch-1, M-fetch-2).
+// Commands, executed by hand: every beat once, in order, and the splats of each group (M-fetch-1, M-fetch-2).
 TEST(FetchCommands, AreTheStream) {
   Random random(seed_or(98));
   std::uint64_t commands = 0, sets = 0, splats = 0;
@@ -183,7 +183,7 @@ TEST(FetchCommands, AreTheStream) {
   EXPECT_GT(splats, 100U);
 }
 
-// M-cull-2: other answers, other times; what else the stream holds is the same.
+// M-cull-2: other verdicts, other times; all else in the stream is the same.
 TEST(CullCycles, FollowFromTheLogAlone) {
   Random random(seed_or(96));
   cmodel::Config config = named_config("small");

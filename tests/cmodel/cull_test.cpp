@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Culling (docs/numerics.md, section 6.1): model against an oracle that looks at every pixel, culled against unculled,
-// the promise of cull_block, and that nothing is hidden where nothing may be.
+// Culling (docs/numerics.md, section 6.1): model against an oracle that tests every pixel, culled against unculled, the
+// rules of cull_block, and that no visible splat is hidden.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -26,7 +26,7 @@ cmodel::Config culling(cmodel::Config config, CullMap map) {
 
 class Culling : public ::testing::TestWithParam<std::tuple<std::string, CullMap>> {};
 
-// What is left is done in its order, as if the rest were not there (N-6.1-12).
+// The remaining splats are drawn in their order, as if the others did not exist (N-6.1-12).
 TEST_P(Culling, ModelEqualsOracle) {
   const auto& [name, map] = GetParam();
   const cmodel::Config config = culling(named_config(name), map);
@@ -66,7 +66,7 @@ struct Ran {
   cmodel::CullLog log;
 };
 
-/// The stream is any configuration's: the hash in its begin_frame becomes this one's.
+/// The hash in begin_frame becomes this configuration's.
 void run(const cmodel::Config& config, std::vector<std::uint8_t> bytes, Ran& out,
          cmodel::StreamScope scope = cmodel::StreamScope::Whole) {
   const std::uint64_t hash = cmodel::config_hash(config);
@@ -100,7 +100,7 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
     ASSERT_EQ(off.seen.rendering.tiles, pixel.seen.rendering.tiles) << "configuration " << i;
     EXPECT_EQ(off.log.size(), 0U);
     for (const Ran* one : {&block, &pixel}) {
-      // What numerics.md says of the counters (N-6.1-11, N-9-16).
+      // The counters of numerics.md (N-6.1-11, N-9-16).
       EXPECT_EQ(one->counters.tiles, off.counters.tiles);
       EXPECT_EQ(one->counters.sheets, off.counters.sheets);
       EXPECT_EQ(one->counters.cull_blocks, off.counters.cull_blocks);
@@ -112,7 +112,7 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
       culls += one->culls;
       windows_less += off.counters.windows - one->counters.windows;
     }
-    // Cells are coarser in blocks: they hide less.
+    // Cells of `block` are coarser: they hide less.
     EXPECT_GE(pixel.culls.hidden_splats + pixel.culls.dropped, block.culls.hidden_splats + block.culls.dropped);
     tiles += off.counters.tiles;
     splats += 2 * off.counters.splats;
@@ -133,7 +133,7 @@ TEST(CullingRandom, NoWordOfThePictureDependsOnTheMap) {
   EXPECT_GT(culls.hidden_windows, 100U);
 }
 
-/// A tile of some sheets, each a wall: a splat on every block.
+/// A tile of several sheets, each a wall: a splat on every block.
 std::vector<std::uint8_t> walls(const cmodel::Config& config, int mode, int sheets) {
   const oracle::Symbols symbols = symbols_of(config);
   StreamWriter w(symbols);
@@ -167,7 +167,7 @@ TEST(CullingRule, SheetsAreTestedAgainstTheLastButOne) {
   for (const CullMap map : {CullMap::Block, CullMap::Pixel}) {
     cmodel::Config config = culling(named_config("tiny"), map);
     config.composite_every_sample = 1;
-    config.freeze_below = 1 << config.composite_frac_bits;  // whatever is drawn on is frozen
+    config.freeze_below = 1 << config.composite_frac_bits;  // every drawn pixel is frozen
     const auto cells =
         static_cast<std::uint64_t>(config.tile_width / config.lanes * (config.tile_height / config.lanes));
     for (const int mode : {0, 1, 2, 4, 5}) {
@@ -187,7 +187,7 @@ TEST(CullingRule, SheetsAreTestedAgainstTheLastButOne) {
   }
 }
 
-// N-6.1-5, N-6.1-6 and N-6.1-7: as many bits as the page says decide every rectangle exactly.
+// N-6.1-5, N-6.1-6 and N-6.1-7: the page's number of bits decides every rectangle exactly.
 TEST(CullingRule, WordsOfTheTableAreModular) {
   Random random(seed_or(94));
   std::uint64_t tests = 0, hidden = 0;
@@ -239,7 +239,7 @@ TEST(CullingRule, TheRtlHasNoCullingWithEllipses) {
   }
 }
 
-/// A sheet of three splats in a row and what stands before each of them.
+/// A sheet of three splats in a row, with the records before each of them.
 using Writing = std::function<void(StreamWriter&, int splat)>;
 std::string refusal(const cmodel::Config& config, const Writing& before,
                     cmodel::StreamScope scope = cmodel::StreamScope::Whole) {
@@ -283,20 +283,20 @@ Writing too_many_sets(const cmodel::Config& config) {
     for (std::uint32_t i = 0; splat == 0 && i <= sets; ++i) w.cull_block(i, 0, 0, 30, 30, 1);
   };
 }
-/// Tags are compared modulo 2^32: with more splats to come, splats outside the rectangle would pass for later ones.
+/// Tags are compared modulo 2^32: with more announced splats, splats outside the rectangle would pass for later ones.
 constexpr std::uint32_t kMostToCome = 1U << 31;
-/// Two cull_blocks, each of as many splats as may be to come.
+/// Two cull_blocks, each with as many splats as may be announced.
 void twice_the_most(StreamWriter& w, int splat) {
   for (std::uint32_t i = 0; splat == 0 && i < 2; ++i) w.cull_block(i * kMostToCome, 0, 0, 30, 30, kMostToCome);
 }
 
-// S-cull-4 to S-cull-8, and where each is not broken.
+// S-cull-4 to S-cull-8, and cases that keep each.
 TEST(CullingRule, AnnouncementsAreChecked) {
   const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
   const int lanes = config.lanes, first = 1 - lanes / 2;
   const int y = 5 - lanes / 2;
   EXPECT_EQ(refusal(config, [](StreamWriter&, int) {}), "");
-  // Of the first splat's windows, what lies left of the tile need not be promised (S-cull-7).
+  // Of the first splat's windows, the part left of the tile need not be in the rectangle (S-cull-7).
   EXPECT_EQ(refusal(config, announced(0, 0, 0, y, 8 + first + lanes, lanes, 3)), "");
   EXPECT_EQ(refusal(config, announced(1, 1, 4 + first, y, 4 + lanes, lanes, 2)), "");
   EXPECT_EQ(refusal(config, announced(3, 3, 0, 0, 1, 1, 0)), "");
@@ -321,12 +321,12 @@ TEST(CullingRule, AnnouncementsAreChecked) {
   refused(announced(0, 0, 0, 0, 1, 1, 0xFFFFFFFF), "too many open splats");
   refused(twice_the_most, "too many open splats");
   EXPECT_EQ(texts.size(), 11U);
-  // Without the key it is a hint (S-cull-2).
+  // With culling off it is a hint (S-cull-2).
   EXPECT_EQ(refusal(culling(config, CullMap::Off), announced(0, 77, 0, 0, 1, 1, 99)), "");
 }
 
-// S-cull-11: the tag, the block's own w5 and the rectangle; neither the number of cull_blocks nor the sum of their w5.
-// Covered splats need not come (S-cull-10).
+// S-cull-11: the tag, the block's own w5 and the rectangle are checked; the number of cull_blocks and the sum of their
+// w5 are not. Covered splats need not come (S-cull-10).
 TEST(CullingRule, TheReaderOfASubsetChecksThreeThings) {
   const cmodel::Config config = culling(named_config("tiny"), CullMap::Block);
   int refused = 0, taken = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cycle model says of a run beside cycles of events: accounts that sum to the busy cycles, pictures that take
-// their beats, a tap of each kind for each event; accounts of several devices add up kind by kind.
+// The cycle model's accounts against cycles of events: accounts sum to the busy cycles, pictures take their beats, each
+// event has a tap. Accounts of several devices add up kind by kind.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -61,7 +61,7 @@ TEST(CycleAccount, OfRunsIsThatOfTheirRecords) {
   EXPECT_GT(splats, 100u);
 }
 
-// M-account-5, M-cull-17: what of a walk is exposed is taken out of the waits in their order.
+// M-account-5, M-cull-17: the exposed part of a walk is subtracted from the waits in their order.
 TEST(CycleAccount, ExposedSlicesAreTakenOutOfWaitsInTheirOrder) {
   using cmodel::Pause, cmodel::CycleAccount;
   constexpr std::pair<Pause, std::uint64_t CycleAccount::*> kOrder[] = {{Pause::Buffer, &CycleAccount::sheet_buffer},
@@ -75,7 +75,7 @@ TEST(CycleAccount, ExposedSlicesAreTakenOutOfWaitsInTheirOrder) {
     cmodel::Accountant accountant;
     accountant.sheet(0, 0, 10, 10 + kWaits);
     accountant.sheet(1, kWaits - exposed, 0, 0);
-    // A cycle each, while the first sheet is walked; in another order than the one that counts.
+    // One cycle each, while the first sheet is walked; in an order other than the one that counts.
     for (std::size_t i = 0; i < kWaits; ++i) accountant.pause(kOrder[kWaits - 1 - i].first, 10 + i, 11 + i);
     accountant.settle(0);
     const CycleAccount account = accountant.account();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several devices on one link: one device counts what the cycle model counts, each of many what it would count alone
-// on its tiles, and all of it what a clocked second model counts (docs/scaling.md).
+// Several devices on one link: one device counts as the cycle model; each of several counts as it would alone on its
+// tiles; all of them count as a second, clocked model (docs/scaling.md).
 #include "cmodel/cycles/cycle_cluster.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ Pieces random_pieces(const cmodel::Config& config, Random& random, std::uint64_t
 CycleCluster run(const cmodel::Config& config, const Pieces& pieces, const cmodel::ClusterOptions& options,
                  bool end_frame = true) {
   CycleCluster cluster(config, end_frame ? StreamScope::Whole : StreamScope::Subset, options);
-  // In pieces that end anywhere.
+  // In pieces of any length.
   const auto beats = std::span(pieces.whole).first(pieces.whole.size() - (end_frame ? 0 : 1));
   for (std::size_t at = 0; at < beats.size(); at += 37)
     cluster.consume(beats.subspan(at, std::min<std::size_t>(37, beats.size() - at)));
@@ -61,7 +61,7 @@ CycleCluster run(const cmodel::Config& config, const Pieces& pieces, const cmode
   return cluster;
 }
 
-/// What both count alike; every comparison is counted.
+/// Counters that both have; every comparison is counted.
 class Compared {
  public:
   void same(std::uint64_t a, std::uint64_t b, const char* what) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of densities: every tap, pixel and counter of the model against the oracle on random streams, and rules that
-// only such devices have.
+// Sheets of densities: every tap, pixel and counter of the model against the oracle on random streams; rules of such
+// devices.
 #include <gtest/gtest.h>
 
 #include "cmodel/cycles/cycle_model.hpp"
@@ -51,7 +51,7 @@ TEST(Densities, WhatTheRtlRefuses) {
   refused(wrong, "sheet.int_bits");
 }
 
-/// The rule that refuses a stream of these tables and a tile of densities; None if it is legal.
+/// The rule that refuses a stream of these tables and a density tile; None if it is legal.
 cmodel::StreamRule broken_rule(const cmodel::Config& config, const LoadedTables& tables) {
   const auto bytes = stream_with_tables(config, 8, tables);
   EXPECT_EQ(disagreement(config, bytes), "");
@@ -64,7 +64,7 @@ cmodel::StreamRule broken_rule(const cmodel::Config& config, const LoadedTables&
   return cmodel::StreamRule::None;
 }
 
-/// A word of a table that is just legal, and its neighbour that is not.
+/// A word of a table that is just legal, and its illegal neighbour.
 struct TableEdge {
   int table;
   std::size_t word;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dirty blocks against a set of places: tiles of several words of marks a row, footprints over their ends and the
-// tile's.
+// Dirty blocks against a set of places: rows of several mark words, footprints across their ends and the tile's.
 #include "cmodel/splat/dirty_map.hpp"
 
 #include <gtest/gtest.h>

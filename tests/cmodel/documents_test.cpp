@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/stream.md and docs/numerics.md against the code: tables in the pages and tables in the headers say the same.
+// docs/stream.md and docs/numerics.md against the code: the tables of pages and headers agree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST(StreamPage, EveryFieldLiesWhereTheLayoutSays) {
       EXPECT_EQ(fields[j].word, named.field.word) << layout.name << '.' << named.name;
       EXPECT_EQ(fields[j].lsb, named.field.lsb) << layout.name << '.' << named.name;
       EXPECT_EQ(fields[j].bits, named.field.bits) << layout.name << '.' << named.name;
-      // "w1, w2 number of beats, low and high": the text of such a pair stands behind its second half.
+      // "w1, w2 number of beats, low and high": the text of such a pair follows its second half.
       std::string stem(named.name);
       std::size_t said_at = j;
       if (const auto half = stem.find('_'); half != std::string::npos) {
@@ -172,7 +172,7 @@ std::vector<std::vector<std::string>> key_rows() {
 
 bool may_be_absent(const std::vector<std::string>& row) { return row[4].ends_with("may be absent"); }
 
-// N-2-1, N-2-3: keys, their order, limits and base values; which may be absent.
+// N-2-1, N-2-3: keys, their order, limits and base values; optional keys.
 TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const auto rows = key_rows();
   const auto base = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/base.toml");
@@ -207,7 +207,7 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
 
 // N-2-5, N-2-6.
 TEST(NumericsPage, HashIsThatOfThePagesLines) {
-  // From nothing but the page: its keys, its order, its base values.
+  // From the page alone: its keys, its order, its base values.
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const auto& row : key_rows())
     for (const char c : may_be_absent(row) ? "" : row[0] + "=" + row[2] + "\n")
@@ -275,7 +275,7 @@ std::vector<std::string> split(const std::string& text) {
 // M-register-5.
 TEST(MicroarchitecturePage, NamesEveryRegisterAtItsAddressAndNoOther) {
   std::map<std::string, std::uint32_t> page, code;
-  std::vector<std::uint32_t> counters;  // of the row of low words, of that of high ones
+  std::vector<std::uint32_t> counters;  // of the row of low words, and of that of high ones
   for (const auto& row : register_rows()) {
     const auto addresses = split(row[0]);
     if (addresses[0].ends_with(" + 8n")) {
@@ -331,7 +331,7 @@ TEST(IntegrationPage, CountsEveryMemoryOfEachConfiguration) {
   EXPECT_EQ(rows.size(), 6U) << "a memory that is not counted here";
 }
 
-/// A value as it is written; of a word its place in the page's list "off, block or pixel".
+/// A value as written; for a word, its place in the page's list "off, block or pixel".
 int number_of(const std::string& limits, const std::string& text) {
   if (std::isdigit(static_cast<unsigned char>(text[0]))) return std::stoi(text);
   static const std::regex word("[a-z0-9_]+");
@@ -345,7 +345,7 @@ int number_of(const std::string& limits, const std::string& text) {
   return 0;
 }
 
-/// The value that a word of the page stands for: a symbol of numerics.md, section 2, or a key without one by its end.
+/// The value of a word of the page: a symbol of numerics.md, section 2, or a key without a symbol, by its end.
 int value_of(const cmodel::Config& config, const std::string& symbol) {
   for (const auto& row : key_rows()) {
     const std::string end = row[0].substr(row[0].find('.') + 1);
@@ -378,7 +378,7 @@ TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
         const int high = std::stoi(match[2]), low = std::stoi(match[3]);
         const auto value = static_cast<std::uint64_t>(value_of(config, match[1]));
         const std::uint64_t field_values = std::uint64_t{1} << (high - low + 1);
-        EXPECT_LE(value, field_values) << reg.name << ", " << part;  // as many as there are: told as 0
+        EXPECT_LE(value, field_values) << reg.name << ", " << part;  // as many as there are: 0
         expected |= static_cast<std::uint32_t>(value % field_values) << low;
         ++fields;
       }
@@ -391,7 +391,7 @@ TEST(MicroarchitecturePage, CapabilitiesArePackedAsTheirRowsSay) {
   EXPECT_EQ(fields * 12, words * 36);
 }
 
-/// Every file that the page names is there, and every numbered section of the numerics has a row.
+/// Every file that the page names exists, and every numbered section of the numerics has a row.
 TEST(RulesPage, NamesFilesThatAreThereAndEverySection) {
   static const std::regex path(R"(`([^` ]+/[^` ]*)`)"), section(R"(^##+ (\d(\.\d)?)\.? .*)"), number(R"(\d+(\.\d+)?)");
   std::set<std::string> rows;
@@ -415,7 +415,7 @@ TEST(RulesPage, NamesFilesThatAreThereAndEverySection) {
   EXPECT_GT(sections, 15);
 }
 
-/// Who has only the page can connect the device: every port of the top module is there (M-port-3, M-port-4, M-port-5,
+/// The page suffices to connect the device: it lists every port of the top module (M-port-3, M-port-4, M-port-5,
 /// M-port-8, M-port-10, M-tap-1).
 TEST(MicroarchitecturePage, NamesEveryPort) {
   std::string page;
@@ -428,7 +428,7 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
     if (!std::regex_match(line, match, port)) continue;
     ++ports;
     const std::string name = match[2];
-    // "`tap_snap_valid_o`, `_tag_o[31:0]`": what follows the first of a family is written without it.
+    // "`tap_snap_valid_o`, `_tag_o[31:0]`": names after the first of a family omit its prefix.
     const auto part = name.rfind('_', name.size() - 3);
     const std::string tail = part == std::string::npos ? name : name.substr(part);
     EXPECT_TRUE(page.find("`" + name) != std::string::npos || page.find("`" + tail) != std::string::npos) << name;
@@ -437,7 +437,7 @@ TEST(MicroarchitecturePage, NamesEveryPort) {
   EXPECT_GT(ports, 40);
 }
 
-// Pages that tools/performance and tools/peers make: their words are those of a file in tools/pages/benchmarks, whole.
+// Pages that tools/performance and tools/peers make contain the whole text of a file in tools/pages/benchmarks.
 TEST(Documents, PagesOfFiguresHaveTheirPrefaces) {
   const auto text = [](const std::string& name) {
     std::ostringstream all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ellipse records among splats: every tap, pixel and counter of the model against the oracle, whatever the index.kind,
-// on random configurations and at the ends of what an ellipse's words may be.
+// Ellipse records among splats: every tap, pixel and counter of the model against the oracle, for every index.kind, on
+// random configurations and at the limits of an ellipse's words.
 #include <gtest/gtest.h>
 
 #include "tests/cmodel/campaign_helper.hpp"

@@ -60,7 +60,7 @@ void flip(Bytes& bytes, std::size_t beat, std::size_t word, std::uint32_t bits) 
     bytes[beat * cmodel::kBeatBytes + 4 * word + i] ^= static_cast<std::uint8_t>(bits >> (8 * i));
 }
 
-/// The rule that the model says is broken.
+/// The rule that the model reports as broken.
 StreamRule broken_rule(const cmodel::Config& config, const Bytes& bytes, std::uint64_t* beat = nullptr) {
   Collector collector;
   cmodel::Model model(config, cmodel::StreamScope::Whole, collector, nullptr);
@@ -113,7 +113,7 @@ const Broken kBroken[] = {
      [](oracle::Ellipse& e) { e.A = 20, e.B = -40, e.C = 20, e.h = 0, e.left = -4, e.top = 3, e.nx = e.ny = 1; }},
     {"q at the last pixel of the last row", StreamRule::Shape,
      [](oracle::Ellipse& e) { e.A = 20, e.B = 40, e.C = 20, e.h = 0, e.left = e.top = 3, e.nx = e.ny = 1; }},
-    // Of two, the first (S-rule-1).
+    // Two broken rules: the first one is reported (S-rule-1).
     {"reserved and range", StreamRule::Reserved, [](oracle::Ellipse& e) { e.x = 128; },
      [](Bytes& b) { flip(b, 7, 3, 1U << 28); }},
     {"range and tag", StreamRule::Range, [](oracle::Ellipse& e) { e.v[0] = 256; }, [](Bytes& b) { flip(b, 7, 1, 1); }},
@@ -153,7 +153,7 @@ TEST(EllipseRules, EachBrokenOnceIsRefusedUnderItsNumber) {
 
 TEST(EllipseRules, PlaceAndCounters) {
   const cmodel::Config config = ellipse_config();
-  // Where the configuration has none, its opcode is unknown (N-4.6-1, S-ellipse-1).
+  // Without ellipses in the configuration the opcode is unknown (N-4.6-1, S-ellipse-1).
   const cmodel::Config none = ellipse_config(0);
   std::uint64_t beat = 0;
   EXPECT_EQ(broken_rule(none, with_ellipse(none, sound()), &beat), StreamRule::Opcode);
@@ -173,7 +173,7 @@ TEST(EllipseRules, PlaceAndCounters) {
   EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::EndCount);
   EXPECT_EQ(beat, 9U);
   EXPECT_EQ(disagreement(config, bytes), "");
-  // The hash has the key.
+  // The key is part of the hash.
   bytes = with_ellipse(ellipse_config(4), sound());
   EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::Configuration);
 }
@@ -210,7 +210,7 @@ struct Field {
                                                         value) { e.name = static_cast<decltype(e.name)>(value); } \
   }
 
-// From a legal record one word goes towards an end, until the first value that is not legal: both sides of the edge.
+// From a legal record one word moves towards an end, up to the first illegal value: both sides of the limit.
 TEST(EllipseRules, BothSidesOfEveryEdge) {
   const Field fields[] = {FIELD(A, 0, 4194303),   FIELD(B, -8388608, 8388607), FIELD(C, 0, 4194303), FIELD(h, 0, 63),
                           FIELD(left, -512, 511), FIELD(top, -512, 511),       FIELD(nx, 1, 32),     FIELD(ny, 1, 32)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When windows are issued in a tile whose samples are composited one by one (docs/microarchitecture.md, M-hazard-3).
+// Issue cycles of windows in a tile whose samples are composited one by one (docs/microarchitecture.md, M-hazard-3).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -36,10 +36,10 @@ struct InTurn {
   const char* name;
   int dx, dy;        ///< pixels from the even splats to the odd ones
   bool cull;         ///< a hint between any two
-  bool every_other;  ///< whether each waits for the one before
+  bool every_other;  ///< whether each waits for the previous one
 };
 
-/// Splats of one window each, on two places in turn.
+/// Splats of one window each, alternating between two places.
 std::vector<std::uint8_t> in_turn(const cmodel::Config& config, int mode, const InTurn& pattern, int splats) {
   StreamWriter w(symbols_of(config));
   w.begin_frame(config.tile_width, config.tile_height, 1);
@@ -83,7 +83,7 @@ TEST(EverySampleCycles, OnePlaceGoesOnEveryOtherCycle) {
       EXPECT_EQ(samples.account.ideal, static_cast<std::uint64_t>(kSplats)) << "windows, and no block";
       EXPECT_EQ(samples.account.total(), samples.stalls.busy);
       EXPECT_EQ(sheets.stalls.stall_hazard, 0U);
-      // The page's time of a tile of one sheet (M-account-7), and the tables' in front of it.
+      // The page's time of a tile of one sheet (M-account-7), after the tables' time.
       const auto beats = static_cast<std::uint64_t>((config.tile_width + side - 1) / side * config.tile_height);
       const std::uint64_t hints = pattern.cull ? kSplats - 1 : 0;
       EXPECT_EQ(samples.stalls.busy - samples.account.table_load,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles whose samples are composited one by one (docs/numerics.md, section 6, modes 4 and 5): model against oracle, and
-// what their order means.
+// the effect of their order.
 #include <gtest/gtest.h>
 
 #include "tests/cmodel/campaign_helper.hpp"
@@ -31,7 +31,7 @@ TEST_P(EverySample, ModelEqualsOracle) {
 INSTANTIATE_TEST_SUITE_P(Configs, EverySample, ::testing::Values("tiny", "base", "ellipse"),
                          [](const auto& param_info) { return param_info.param; });
 
-/// One tile of two whole-window splats of one colour each, at these places.
+/// A tile of two whole-window splats of one colour each, at these places.
 std::vector<std::uint8_t> two(const cmodel::Config& config, int mode, bool swapped, int apart) {
   const oracle::Symbols symbols = symbols_of(config);
   StreamWriter w(symbols);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of index: the model against the oracle on random streams, the inner steps by hand, and what a tile sees of
-// a frame without tiles.
+// Every kind of index: the model against the oracle on random streams, the inner steps by hand, and frames without
+// tiles.
 #include <gtest/gtest.h>
 
 #include "cmodel/decode/stream_decode.hpp"
@@ -76,8 +76,8 @@ TEST_P(Family, ModelEqualsOracleOverPhasesEntriesAndRoundings) {
   EXPECT_EQ(configs, 45U);
 }
 
-// Of interpolated tables (N-4.7-1, N-4.7-2, N-4.7-3), all of whose words are drawn: few entries and many, all that g
-// can be, with ellipses beside.
+// Interpolated tables (N-4.7-1, N-4.7-2, N-4.7-3) with random words: few and many entries, every value of g, with
+// ellipses.
 TEST(Interpolated, ModelEqualsOracleOverEntriesAndGuardBits) {
   Random random(seed_or(65));
   Campaign total;
@@ -124,7 +124,7 @@ TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   check(~std::uint64_t{0});
   Random random(seed_or(63));
   for (int i = 0; i < 100000; ++i) check(random.next() >> random.between(0, 63));
-  // The words on both sides of a square, where a root that is off by one shows.
+  // Words on both sides of a square: a root that is off by one shows.
   for (int i = 0; i < 100000; ++i) {
     const std::uint64_t s = (random.next() >> 32 >> random.between(0, 30)) + 1;
     for (const std::uint64_t v : {s * s - 1, s * s, s * s + 2 * s}) check(v);
@@ -132,8 +132,7 @@ TEST(FamilySteps, TheRootIsTheLargestWhoseSquareFits) {
   std::printf("[figure] roots checked = %llu\n", static_cast<unsigned long long>(checked));
 }
 
-// By additions alone the same q as by the formula (N-4.2-3, N-4.3-4), at both ends of the widths that a configuration
-// may have.
+// Additions alone give the q of the formula (N-4.2-3, N-4.3-4), at both ends of the widths of a configuration.
 TEST(FamilySteps, ForwardDifferencesAreExact) {
   Random random(seed_or(64));
   std::uint64_t compared = 0;
@@ -173,7 +172,7 @@ TEST(FamilySteps, ForwardDifferencesAreExact) {
   std::printf("[figure] q compared = %llu, different = 0\n", static_cast<unsigned long long>(compared));
 }
 
-// A weight needs no history: windows in any order are those along the scan lines.
+// A weight has no history: windows in any order give the weights of scan-line order.
 TEST(FamilySteps, WindowsInAnyOrderAreTheSame) {
   Random random(seed_or(65));
   std::uint64_t compared = 0;

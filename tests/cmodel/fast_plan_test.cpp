@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fast unit makes of a configuration's numbers and of a frame's tables, at the borders of what it takes.
+// The fast unit's plan for a configuration and a frame's tables, at the limits that it accepts.
 #include "cmodel/fast/fast_plan.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(FastPlan, IsNarrowUpToFactorsOf15Bits) {
   std::printf("[figure] widths of weights planned = %d\n", checked);
 }
 
-/// Why samples of this configuration are not composited fast; "" where they are.
+/// Why samples of this configuration are not composited fast; "" if they are.
 std::string why_not(const Config& config) {
   EXPECT_FALSE(cmodel::first_violation(config));
   const auto plan = cmodel::fast::fast_plan(config);
@@ -54,7 +54,7 @@ TEST(SamplePlan, TakesWordsAndRoundingsUpToItsLanes) {
     EXPECT_NE(why_not(config).find(what), std::string::npos) << why_not(config);
     ++refused;
   };
-  // Each site alone. Of additive slabs nothing is dropped where sheet and transmittance have the same fraction bits.
+  // Each site alone. Additive slabs drop nothing if sheet and transmittance have the same fraction bits.
   for (int Config::*const rounding : {&Config::rounding_fall, &Config::rounding_slab, &Config::rounding_light}) {
     Config config = base;
     config.*rounding = static_cast<int>(cmodel::Rounding::RND_CONV);
@@ -70,7 +70,7 @@ TEST(SamplePlan, TakesWordsAndRoundingsUpToItsLanes) {
   EXPECT_GE(refused, 4);
 }
 
-/// begin_frame and the tables of a device, these slab factors among them.
+/// begin_frame and the tables of a device, with these slab factors.
 std::optional<cmodel::fast::FrameTables> tables_of(const Config& config, const std::vector<std::uint32_t>& factor) {
   StreamWriter stream(symbols_of(config));
   const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
@@ -86,14 +86,14 @@ std::optional<cmodel::fast::FrameTables> tables_of(const Config& config, const s
 
 // (tau + excess) * factor stays below 1.0 for every word of tau, with the largest factor that its segment has.
 TEST(FrameTables, ExcessIsTheMostThatKeepsEveryOpacityBelowOne) {
-  // Without vectors the fast unit takes no frame, whatever its tables.
+  // Without vectors the fast unit accepts no frame, whatever its tables.
   if (!cmodel::fast::has_vectors()) GTEST_SKIP() << "this processor lacks the required vector instructions";
   const Config config = named_config("small");
   const int shift = config.opacity_remainder_bits();
   const std::uint64_t one = std::uint64_t{1} << (config.sheet_frac_bits + config.opacity_frac_bits);
   const auto words = std::uint64_t{1} << (config.sheet_int_bits + config.sheet_frac_bits);
   int holds = 0, does_not = 0;
-  // Factors that fall like 1 / (tau + so much), from so little on.
+  // Factors that fall like 1 / (tau + excess), from a small tau on.
   for (const std::uint64_t beside : {0U, 1U, 7U, 300U, 1000U, 5000U}) {
     std::vector<std::uint32_t> factor;
     for (std::uint64_t i = 0; i <= static_cast<std::uint64_t>(config.opacity_segments); ++i) {
@@ -113,7 +113,7 @@ TEST(FrameTables, ExcessIsTheMostThatKeepsEveryOpacityBelowOne) {
     EXPECT_EQ(tables->opacity_holds, fits) << beside;
     EXPECT_EQ(tables->opacity_excess, fits ? most : 0) << beside;
     (fits ? holds : does_not) += 1;
-    // One more than the last segment bears, and the table promises nothing.
+    // One more than the last segment allows, and the table guarantees nothing.
     const std::size_t last = factor.size() - 2;
     factor[last] = static_cast<std::uint32_t>((one - 1) / (words - 1) + 1);
     for (std::size_t i = 0; i < last; ++i) factor[i] = std::max(factor[i], factor[last]);

@@ -32,8 +32,8 @@ std::vector<std::uint64_t> values(const Counters& counters) {
 
 struct Tally {
   std::uint64_t tiles = 0, redone = 0, mismatches = 0, hidden = 0;
-  // Of tiles not given up: records of ellipses; of every sample: those, frozen ones, words cut to 1.0 or to the
-  // largest.
+  // In completed tiles: records of ellipses; samples composited one by one; of these, frozen ones and words cut to 1.0
+  // or to the largest.
   std::uint64_t ellipses = 0, samples = 0, frozen = 0, cut = 0;
   std::uint64_t classified = 0;  ///< pixels of densities, likewise
 
@@ -45,7 +45,8 @@ struct Tally {
   }
 };
 
-/// Records of a stream to a fast unit; tiles it gives up are taken from the plain run, counters and all.
+/// Feeds the records of a stream to a fast unit; tiles that it gives up are taken from the plain run, with their
+/// counters.
 template <class Word>
 void compare(const cmodel::Config& config, const FrameTables& tables, std::span<const cmodel::Beat> beats,
              std::size_t first, Tally& tally) {
@@ -109,7 +110,7 @@ void compare(const cmodel::Config& config, const FrameTables& tables, std::span<
   tally.hidden += fast.hidden_splats();
 }
 
-/// What the fast unit takes of `rounds` random streams.
+/// The number of `rounds` random streams that the fast unit accepts.
 template <class Draw>
 Tally random_streams(const char* name, int rounds, std::uint64_t least_planned, Draw draw) {
   Random random(20261122);
@@ -156,7 +157,7 @@ TEST(FastUnit, RandomStreams) {
   });
 }
 
-// Whose footprints are asked of the unit window by window.
+// Footprints that the unit computes window by window.
 TEST(FastUnit, RandomStreamsOfOtherIndices) {
   random_streams("other kinds of index", 120, 20, [](Random& random, int round) {
     constexpr cmodel::IndexKind kKinds[] = {cmodel::IndexKind::Linear, cmodel::IndexKind::Squared,
@@ -213,7 +214,7 @@ TEST(FastUnit, RandomStreamsOfSamples) {
   EXPECT_GT(all.frozen, 1000u);
 }
 
-/// Tables of one set of one window, whose every pixel weighs 1.0, or the most that a weight can be.
+/// Tables of one set of one window, in which every pixel weighs 1.0 or the largest weight.
 void load_flat_footprint(StreamWriter& stream, const cmodel::Config& config) {
   const auto extent = static_cast<std::uint32_t>(config.lanes), phases = static_cast<std::uint32_t>(config.phases);
   stream.load_table(0, 0, extent * phases / 2, 0, std::vector<std::uint32_t>(std::size_t{phases} * extent, 0));
@@ -222,8 +223,8 @@ void load_flat_footprint(StreamWriter& stream, const cmodel::Config& config) {
   stream.load_table(1, 0, 0, 0, std::vector<std::uint32_t>(static_cast<std::size_t>(config.radial_entries), weight));
 }
 
-/// A tile that freezes whole, and then `splats` on one place behind it, each of two fifths of the largest red and of
-/// `above` sixteenths less tau.
+/// A tile that freezes whole, and after it `splats` at one place, each with two fifths of the largest red and `above`
+/// sixteenths less tau.
 std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, int splats, std::uint32_t above) {
   StreamWriter stream(symbols_of(config));
   stream.begin_frame(config.tile_width, config.tile_height, 1);
@@ -257,13 +258,14 @@ std::vector<std::uint8_t> hidden_stream(const cmodel::Config& config, int mode, 
   return stream.bytes();
 }
 
-// Sums behind frozen pixels change no picture, and still may leave the sheet's format or make an opacity above 1.0.
+// Sums behind frozen pixels do not change the picture, but may still leave the sheet's format or make an opacity above
+// 1.0.
 TEST(FastUnit, HiddenSplatsAreCounted) {
   Tally all;
   for (const char* name : {"base", "compact", "exact", "small", "tiny"}) {
     const cmodel::Config config = named_config(name);
     for (const int mode : {0, 1}) {
-      // Colours above tau by nothing, by little, and by more than any opacity bears.
+      // Colours above tau by zero, by little, and by more than any opacity allows.
       for (const std::uint32_t above : {0, 1, 9}) {
         for (int splats = 1; splats <= 16; ++splats) {
           const auto bytes = hidden_stream(config, mode, splats, above);
@@ -290,7 +292,7 @@ TEST(FastUnit, HiddenSplatsAreCounted) {
   EXPECT_GT(all.tiles, all.redone) << "every tile was given up";
 }
 
-// A set that its source left out is nothing to the splats of the next tile, whose tags begin anew.
+// An omitted group does not affect the splats of the next tile, whose tags restart.
 TEST(FastUnit, SetsLeftOutEndWithTheirTile) {
   Tally all;
   for (const char* name : {"base", "small", "tiny"}) {

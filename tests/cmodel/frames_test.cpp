@@ -47,7 +47,7 @@ TEST(RandomFrames, ModelEqualsOracleOnRandomConfigurations) {
   EXPECT_GT(total.comparison.total(), 0U) << "nothing was compared";
 }
 
-// The comparison is worth only what it can see: one LSB, one missing event, one wrong place, one wrong count.
+// The comparison must notice: one LSB, one missing event, one wrong place, one wrong count.
 TEST(Comparison, ReportsEveryPerturbation) {
   const cmodel::Config config = named_config("tiny");
   Random random(seed_or(3));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of compositing, seen through the taps: transmittance only falls, alpha + transmittance is 1, frozen stays
-// frozen.
+// Invariants of compositing, seen through the taps: transmittance never rises, alpha + transmittance is 1, frozen
+// pixels stay frozen.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -65,10 +65,10 @@ class Invariants : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Invariants, HoldAtEveryTap) {
   cmodel::Config config = named_config(GetParam());
-  // Alpha as an output word must be exact to be held against T.
+  // Alpha as an output word must be exact to be compared with T.
   config.pixel_int_bits = 1;
   config.pixel_frac_bits = config.composite_frac_bits;
-  // Freezing early, so that many pixels do and are hit again.
+  // Early termination, so that many pixels freeze and are hit again.
   config.freeze_below = 1 << (config.composite_frac_bits - 2);
   Random random(seed_or(9));
   Seen seen;

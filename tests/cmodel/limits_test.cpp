@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configurations at the ends of their ranges: every corner of the word lengths, the widest and the narrowest device.
-// Under UndefinedBehaviorSanitizer this is also where an overflow or a wrong shift would show.
+// UndefinedBehaviorSanitizer finds overflows and wrong shifts here.
 #include <gtest/gtest.h>
 
 #include "tests/cmodel/campaign_helper.hpp"
@@ -63,7 +63,7 @@ TEST(Limits, WidestAndNarrowestDevice) {
       widest.*key.member = narrowest.*key.member = *key.neutral;
   }
   widest.name = "widest";
-  widest.tile_width = widest.tile_height = 64;  // the keys' 4096 would only cost time
+  widest.tile_width = widest.tile_height = 64;  // the key allows 4096, which only costs time
   widest.rlut_columns = 64;                     // of k = 4096 rows
   widest.sheet_int_bits = widest.pixel_int_bits = 1;
   narrowest.name = "narrowest";

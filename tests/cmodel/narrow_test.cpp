@@ -77,7 +77,7 @@ TEST(Narrow, LargestValues) {
     const int width = static_cast<int>(random.between(1, 32)), f = static_cast<int>(random.between(0, width));
     const Pair format = random.once_in(2) ? Pair{cmodel::unsigned_format(width - f, f), oracle::u(width - f, f), true}
                                           : Pair{cmodel::signed_format(width - f, f), oracle::s(width - f, f), true};
-    // Only dropping bits: growing a 62-bit value is outside the contract.
+    // Drops bits only: widening a 62-bit value is outside the contract.
     const int from_frac = f + static_cast<int>(random.between(0, 48));
     const int magnitude = static_cast<int>(random.between(0, 62));
     std::int64_t value = random.between(-kLimit, kLimit) >> magnitude;

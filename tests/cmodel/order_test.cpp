@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must not matter: the order of splats within a sheet, culling hints, how the beats are handed over, whether taps
-// watch.
+// Independence of the order of splats within a sheet, of culling hints, of how beats are passed, and of observing taps.
 #include <gtest/gtest.h>
 
 #include <algorithm>

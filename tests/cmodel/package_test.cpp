@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The package that the RTL is made with: whether it has every name that rtl/ reads, and what has no device.
+// The package for the RTL: it has every name that rtl/ reads; configurations without RTL have none.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,7 +18,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Names of `fastsplat_pkg::` in rtl/; what narrow.svh puts together of a site's name is not among them.
+/// Names of `fastsplat_pkg::` in rtl/, without those that narrow.svh builds from a site's name.
 std::set<std::string> names_read() {
   std::set<std::string> names;
   static const std::regex use(R"(fastsplat_pkg::([A-Za-z_0-9]*[A-Za-z0-9])\b)");
@@ -121,7 +121,7 @@ TEST(Package, IsMadeUpToTheLimitsOfTheRtl) {
 }
 
 // A block of densities is read for max(5, slices) cycles (M-density-10). Its last slice is in k0 5 + 23 + slices - 1
-// behind the first (M-density-12, M-density-15).
+// cycles after the first (M-density-12, M-density-15).
 TEST(Package, SaysWhenTheLastSliceOfABlockOfDensitiesComes) {
   cmodel::Config config = named_config("small");
   config.classify_segment_bits = 4;
@@ -132,7 +132,7 @@ TEST(Package, SaysWhenTheLastSliceOfABlockOfDensitiesComes) {
     EXPECT_EQ(number_of(cmodel::sv_package(config), "DENSITY_LATE"), expected) << lanes;
     ++checked;
   };
-  late(0, 28 - 4);  // a whole block at once: five cycles, the last slice 28 behind the first of them
+  late(0, 28 - 4);  // a whole block at once: five cycles, the last slice 28 after the first of them
   late(4, 31 - 4);  // four slices
   late(2, 35 - 7);  // eight
   std::printf("[figure] numbers of lanes = %d\n", checked);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solid patterns: every tap, pixel and counter of the model against the oracle on random streams; what leaves every bit
-// as it is; rules that only such devices have.
+// Solid patterns: every tap, pixel and counter of the model against the oracle on random streams; patterns without
+// effect; rules of such devices.
 #include <gtest/gtest.h>
 
 #include "cmodel/classify/pattern_unit.hpp"
@@ -14,7 +14,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Random, with patterns, of densities or without.
+/// A random configuration with patterns, with or without densities.
 cmodel::Config random_pattern_config(Random& random) {
   while (true) {
     cmodel::Config config = random.once_in(3) ? random_ellipse_config(random) : random_config(random);

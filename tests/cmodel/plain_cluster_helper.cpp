@@ -38,7 +38,7 @@ class PlainDevice {
   bool has_place() const { return taken_places_ < places_; }
   void reserve() { ++taken_places_; }
   void arrive(const PlainBeat& beat) { queue_.push_back(beat); }
-  /// Nothing is queued or on the link.
+  /// No beat is queued or on the link.
   bool all_taken() const { return taken_places_ == 0; }
   bool at_rest(std::uint64_t cycle) const {
     return all_taken() && !weighed_ && !result_ && !beat_ && !tile_open_ && cycle >= picture_end_;
@@ -53,8 +53,8 @@ class PlainDevice {
       if (!beat_) ++out.stalls.stall_input;  // M-register-16, and the other stalls below
     }
     out.end = std::max(out.end, wipe_);
-    // Each register takes what lies before it when it is empty or is emptied in this cycle (M-check-1, M-check-3,
-    // M-decode-1, M-decode-3); the source's beat follows (M-check-2), from the end of the wipe on (M-reset-5).
+    // Each register takes the beat before it when it is empty or is emptied in this cycle (M-check-1, M-check-3,
+    // M-decode-1, M-decode-3). The source's beat follows (M-check-2), once the wipe has ended (M-reset-5).
     const bool done = beat_ && carry_out(cycle);
     if (done) beat_.reset();
     if (!beat_ && result_) {
@@ -156,11 +156,11 @@ std::vector<PlainDeviceCycles> plain_cluster(const cmodel::Config& config, std::
 
   std::size_t served = count - 1;
   std::uint64_t left = 0;          // bytes of the beat on the link
-  std::vector<std::size_t> whose;  // who gets it
+  std::vector<std::size_t> whose;  // its receiver
   PlainBeat carried;
   for (std::uint64_t cycle = 0;; ++cycle) {
     if (cycle > 100'000'000) throw std::runtime_error("the clocked model does not end");
-    // Tiles, in stream order, to those who have nothing left: who took its last beat first comes first.
+    // Tiles, in stream order, go to idle devices: the device whose last beat came first is first.
     while (preamble.empty() && !tiles.empty()) {
       PlainDevice* first = nullptr;
       for (PlainDevice& device : devices)

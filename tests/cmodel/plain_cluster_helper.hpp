@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/scaling.md once more, clocked: every part looks at every cycle. Knows the cost of a beat, nothing of cmodel's
-// cluster, link or queue.
+// docs/scaling.md written again, clocked: every part is updated in every cycle. It knows the cost of a beat and shares
+// nothing with cmodel's cluster, link or queue.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace fastsplat::test {
 
-/// What a beat asks of a device.
+/// The work of a beat in a device.
 struct PlainBeat {
   cmodel::Opcode opcode{};
   bool payload = false;      ///< table words
@@ -24,7 +24,7 @@ struct PlainBeat {
   std::uint32_t tile = 0;
 };
 
-/// Of each beat of a whole stream, from a run on one device.
+/// For each beat of a whole stream, from a run on one device.
 std::vector<PlainBeat> plain_beats(const cmodel::Config& config, std::span<const cmodel::Beat> beats);
 
 struct PlainDeviceCycles {

@@ -16,7 +16,7 @@ namespace {
 
 using cmodel::Opcode;
 
-/// What the model drew, by its taps: windows of each splat, dirty blocks of each sheet.
+/// The model's drawing, from its taps: windows of each splat, dirty blocks of each sheet.
 struct Drawn final : cmodel::TapSink, cmodel::PixelSink {
   using Key = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Key, std::vector<std::pair<int, int>>> windows;  ///< (tile, tag): first pixels
@@ -36,15 +36,15 @@ struct Drawn final : cmodel::TapSink, cmodel::PixelSink {
   }
 };
 
-/// A beat and what is known of it without a clock.
+/// A beat, with its figures that need no clock.
 struct Item {
   Opcode opcode{};
   bool payload = false;
-  std::uint64_t cycles = 1;  ///< in decode, waits aside; hidden splats have 1 (M-cull-6)
+  std::uint64_t cycles = 1;  ///< in decode, without waits; hidden splats have 1 (M-cull-6)
   bool skipped = false;      ///< of a hidden set
-  bool trusted = false;      ///< ... that a fetching source sends all the same
+  bool trusted = false;      ///< ... that a fetching source sends nevertheless
   int set = -1;              ///< cull_block: its number
-  int waits = -1;            ///< the cull_block whose verdict a fetching source must have
+  int waits = -1;            ///< the cull_block whose verdict a fetching source waits for
   std::uint64_t blocks = 0;  ///< end_sheet: dirty
   int row = 0;               ///< end_sheet: the first row of blocks with a new opaque cell (M-cull-9)
   int mode = 0, width = 0, height = 0;
@@ -64,10 +64,11 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   int width = 0, height = 0, mode = 0, sets = 0;
   std::set<std::pair<int, int>> opaque;  // pixels of the tile
   std::map<std::uint32_t, std::uint32_t> rho;
-  std::deque<std::pair<int, bool>> covered;  // the next splats' sets, and whether these are hidden
+  std::deque<std::pair<int, bool>> covered;  // the groups of the next splats, and whether they are hidden
   std::size_t answer = 0;
-  bool behind = false;  // splats of sets, and nothing else yet
-  // A set with splats is hidden, of those announced last, and before; whether what they announce is sent unjudged.
+  bool behind = false;  // splats of groups, and no other record yet
+  // Whether a group with splats is hidden, among those announced last and before; whether its splats are sent without a
+  // verdict.
   bool hides = false, hid = false, trusts = false;
   for (const cmodel::Beat& beat : beats) {
     Item item;
@@ -132,7 +133,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     };
     if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) splat(one->tag);
     if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) splat(one->tag);
-    // What comes behind the splats of sets waits for the last of these (M-fetch-5).
+    // A record after the splats of groups waits for the last of these groups (M-fetch-5).
     const bool covers = item.waits >= 0;
     if (behind && !covers) item.waits = sets - 1 - (item.set >= 0 ? 1 : 0);
     behind = covers;
@@ -140,7 +141,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
     if (item.opcode == Opcode::EndSheet) {
       item.blocks = drawn.blocks[{tile, sheet}];
       item.row = (height + config.lanes - 1) / config.lanes;
-      // A cell is opaque where all of its pixels in the tile are.
+      // A cell is opaque if all of its pixels in the tile are.
       const int u = config.cull_cell();
       const auto all = [&](int x, int y) {
         for (int j = y / u * u; j < std::min(y / u * u + u, height); ++j)
@@ -159,8 +160,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
   return out;
 }
 
-/// The device's registers in front of decode, decode, the walks over finished sheets and the cull tables, cycle by
-/// cycle.
+/// The device's registers before decode, decode, the walks over finished sheets and the cull tables, cycle by cycle.
 class Clock {
  public:
   Clock(const cmodel::Config& config, std::span<const cmodel::Beat> beats, std::optional<std::uint64_t> latency)
@@ -222,7 +222,7 @@ class Clock {
     if (holds(kT3, Opcode::CullBlock)) verdict_.try_emplace(item(held_[kT3]).set, c_);
   }
 
-  /// True if decode is done with what it holds.
+  /// True if decode has finished its beat.
   bool decode() {
     if (held_[kDecode] < 0) return false;
     const bool waits = (holds(kDecode, Opcode::BeginSheet) && c_ < buffer_from_[buffer_]) ||
@@ -260,8 +260,8 @@ class Clock {
     walk_end_[table] = f_ + 1;
     if (tile_.mode < 2) change_tables(sheet.row, table);  // M-cull-12
   }
-  /// Where nothing has to be written the table is whole when the sheet has left k6 (M-cull-8) and the one before is
-  /// (M-cull-10).
+  /// If nothing has to be written, the table is whole when the sheet has left k6 (M-cull-8) and the previous table is
+  /// whole (M-cull-10).
   void change_tables(int row, std::size_t table) {
     if (opaque_yet_)  // M-cull-9
       for (int& first : first_row_) first = std::min(first, row);
@@ -278,7 +278,7 @@ class Clock {
     picture_to_ = c_ + 3 + blocks(tile_.width) * static_cast<std::uint64_t>(tile_.height);  // M-pixel-1, M-pixel-2
   }
 
-  /// Who moves on: from the last register to the first (M-check-3, M-decode-1).
+  /// Beats move on from the last register to the first (M-check-3, M-decode-1).
   void advance(bool decoded) {
     if (decoded) held_[kDecode] = -1;
     bool free = held_[kDecode] < 0;
@@ -313,7 +313,7 @@ class Clock {
     while (latency_ && next_ < all && item(next_).skipped && !item(next_).trusted) ++next_;
     if (held_[0] >= 0 || next_ >= all) return;
     const Item& one = item(next_);
-    // M-fetch-8; a source that does not fetch sends all (M-cull-14).
+    // M-fetch-8; a source that does not fetch sends all beats (M-cull-14).
     if (latency_ && one.waits >= 0 && !one.trusted &&
         (!verdict_.contains(one.waits) || c_ < verdict_.at(one.waits) + std::max<std::uint64_t>(*latency_, 1) + 6))
       return;
@@ -328,11 +328,11 @@ class Clock {
   const std::vector<Item> items_;
   PlainCullClock out_;
   std::uint64_t c_ = 0;                   ///< the cycle
-  std::array<int, 7> held_{};             ///< what each register holds, or -1
-  int next_ = 0;                          ///< beat to be sent
-  std::vector<int> order_;                ///< beats as they were sent
-  std::size_t done_ = 0;                  ///< beats that decode has left
-  std::uint64_t left_in_decode_ = 0;      ///< cycles of what decode holds, this one included
+  std::array<int, 7> held_{};             ///< the beat in each register, or -1
+  int next_ = 0;                          ///< next beat to send
+  std::vector<int> order_;                ///< beats in the order sent
+  std::size_t done_ = 0;                  ///< beats that left decode
+  std::uint64_t left_in_decode_ = 0;      ///< cycles of decode's beat, this one included
   std::map<int, std::uint64_t> verdict_;  ///< of each cull_block
   // Buffers, walk, picture.
   std::array<std::uint64_t, 2> buffer_from_{};
@@ -341,7 +341,7 @@ class Clock {
   bool walked_ = false;
   // Tables.
   std::deque<Job> jobs_;
-  std::array<std::size_t, 2> to_build_{}, not_whole_{};  ///< jobs that are not done, by table
+  std::array<std::size_t, 2> to_build_{}, not_whole_{};  ///< unfinished jobs, by table
   std::array<int, 2> first_row_{};
   std::uint64_t begun_in_t0_ = 0, ended_ = 0;    ///< sheets of the tile
   std::uint64_t all_begun_ = 0, all_ended_ = 0;  ///< since reset: in t0, in decode

@@ -25,7 +25,7 @@ struct Reach {
   double x = 1, y = 1;
 };
 
-/// Of two half axes and a direction, by words of 22 bits.
+/// From two half axes and a direction, in words of 22 bits.
 Reach drawn_shape(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
   const double widest = c.columns / 2.0, thin = 0.125;
   const double l = r.once_in(4) ? widest : thin * std::pow(widest / thin, part(r));
@@ -46,7 +46,7 @@ Reach drawn_shape(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
   return {std::sqrt(ll * cs * cs + ss * sn * sn), std::sqrt(ll * sn * sn + ss * cs * cs)};
 }
 
-/// Of any legal words: ends, strips, and shifts that put the rim anywhere or nowhere.
+/// Arbitrary legal words: ends, strips, and shifts that put the rim anywhere or nowhere.
 Reach drawn_words(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
   const auto term = [&]() -> std::int64_t {
     if (r.once_in(3)) return r.one_of({0, 1, 2, kTerm / 2, kTerm - 1, kTerm});
@@ -95,7 +95,7 @@ void random_shape(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
   const Reach reach = r.once_in(3) ? drawn_words(c, r, e) : drawn_shape(c, r, e);
   span(c, r, reach.x, e.left, e.nx);
   span(c, r, reach.y, e.top, e.ny);
-  // Large ones are rare: they cost as much as all others.
+  // Large ones are rare: they cost as much as all the others.
   const int most = r.once_in(60) ? 1024 : std::max(24, 800 / (c.P * c.P));
   while (e.nx * e.ny > most) (e.nx > e.ny ? e.nx : e.ny) /= 2;
   const bool steep = r.once_in(5);
@@ -104,7 +104,7 @@ void random_shape(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
     e.left = static_cast<int>(r.between(0, 1)) - e.nx * c.P / 2,
     e.top = static_cast<int>(r.between(0, 1)) - e.ny * c.P / 2;
   }
-  // Until the rule holds: fewer windows, then windows nearer to the centre, at last a wider shape.
+  // Until the rule holds: fewer windows, then windows nearer to the centre, finally a wider shape.
   while (oracle::broken_shape(c, e) != nullptr) {
     if (e.nx > 1 || e.ny > 1)
       (e.nx > e.ny ? e.nx : e.ny) /= 2;
@@ -113,7 +113,7 @@ void random_shape(const oracle::Symbols& c, Random& r, oracle::Ellipse& e) {
     else
       e.h = std::min(e.h + 1, kMostShift);
   }
-  // The steepest q that the rule lets through: its coefficients may leave their words.
+  // The steepest q that the rule allows: its coefficients may leave their words.
   while (steep && e.h > 0) {
     --e.h;
     if (oracle::broken_shape(c, e) == nullptr) continue;

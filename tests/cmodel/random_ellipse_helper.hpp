@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random legal ellipse records: shapes as a driver would make them, from thin to round, and words that none would, up
-// to the edges of rule 18.
+// Random legal ellipse records: shapes as from a driver, from thin to round, and words that no driver makes, up to the
+// limits of rule 18.
 #pragma once
 
 #include "tests/cmodel/oracle/ellipse.hpp"
@@ -8,7 +8,7 @@
 
 namespace fastsplat::test {
 
-/// Shape and windows around a centre (x, y) that is given; tag and colours are left as they are.
+/// Shape and windows around a given centre (x, y); tag and colours are unchanged.
 void random_shape(const oracle::Symbols& c, Random& random, oracle::Ellipse& ellipse);
 
 }  // namespace fastsplat::test

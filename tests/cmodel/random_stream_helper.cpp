@@ -37,7 +37,7 @@ class Generator {
       : c(symbols), r(random), w(symbols), order(sets_order) {}
 
   RandomStream run(std::uint64_t splats) {
-    // begin_frame names the number of tiles, so the tiles are written first.
+    // begin_frame holds the number of tiles, so the tiles are written first.
     for (std::int64_t i = 0; i < r.between(1, 3) || sets.empty(); ++i) radius_set();
     table(1, c.radial_words(), (std::int64_t{1} << (c.wi + c.wf)) - 1);
     factor();
@@ -65,7 +65,7 @@ class Generator {
   static constexpr int image_width = 65535, image_height = 4096;
   static constexpr std::int64_t kScaledSheets = 128;
 
-  /// A word of 0..largest: an end, next to one, small, or anything.
+  /// A word of 0..largest: an end, next to an end, small, or arbitrary.
   std::uint32_t word(std::int64_t largest) {
     switch (r.between(0, 7)) {
       case 0:
@@ -92,7 +92,7 @@ class Generator {
   void radius_set() {
     const std::int64_t most_windows = c.columns / c.P;
     const std::int64_t windows = std::min(most_windows, r.once_in(4) ? r.between(1, 4) : r.between(1, 2));
-    // E = ceil(2 rho / k) in (windows-1) P + 1 .. windows P; the widest and the narrowest rho of it are boundary cases.
+    // E = ceil(2 rho / k) in (windows-1) P + 1 .. windows P; its widest and narrowest rho are boundary cases.
     const std::int64_t widest = windows * c.P * c.K() / 2, narrowest = (windows - 1) * c.P * c.K() / 2 + 1;
     if (widest < narrowest) return;
     const std::int64_t rho = r.once_in(2) ? r.between(narrowest, widest) : r.one_of({narrowest, widest});
@@ -110,7 +110,7 @@ class Generator {
     }
   }
 
-  /// Of the other kinds of index. Rims mostly lie within the footprint or just outside.
+  /// For the other kinds of index. Rims mostly lie within the footprint or just outside.
   std::vector<std::uint32_t> set_words(std::int64_t rho, std::int64_t Ea) {
     const std::int64_t most = std::int64_t{1} << 24, weight = (std::int64_t{1} << (c.wi + c.wf)) - 1;
     std::vector<std::uint32_t> words;
@@ -153,7 +153,7 @@ class Generator {
     return words;
   }
 
-  /// Words as no driver makes them: the device depends on the loaded words only (N-4-5).
+  /// Words that no driver makes: the device depends on the loaded words only (N-4-5).
   std::vector<std::uint32_t> rlut_words(std::int64_t count) {
     const std::int64_t rim = std::int64_t{c.N} << c.g;
     std::vector<std::uint32_t> words;
@@ -189,7 +189,7 @@ class Generator {
     w.load_table(2, 0, 0, 0, words);
   }
 
-  /// Of densities: words anywhere in their ranges, some of them as a driver makes them.
+  /// Density tables: arbitrary words in their ranges, some as from a driver.
   void density_tables() {
     for (const int id : {3, 4, 5, 6, 7}) {
       const std::int64_t count = id == 7 ? 2 * kScaledSheets : oracle::density_table_words(c, id);
@@ -211,7 +211,7 @@ class Generator {
     }
   }
 
-  /// Of patterns: places near the tiles' and far from them, steps as a driver makes them and any.
+  /// Patterns: places near the tiles and far from them, steps as from a driver and arbitrary ones.
   void pattern_tables() {
     std::vector<std::uint32_t> nodes, words;
     for (std::int64_t i = 0; i < oracle::pattern_table_words(c, 8); ++i) nodes.push_back(two_words(65535));
@@ -270,7 +270,7 @@ class Generator {
       const std::int64_t kinds = c.f > 0 ? r.between(0, 2) : 2;
       for (std::int64_t i = 0; i < splats; ++i) {
         if (r.once_in(12)) w.cull_block(static_cast<std::uint32_t>(r.next()), 0, 0, width, height, 3);
-        // With ellipses whole sheets of either, and both mixed.
+        // With ellipses: whole sheets of either, and mixed ones.
         if (c.f > 0 && (kinds == 0 || (kinds == 1 && r.once_in(2))))
           ellipse(width, height, dimming);
         else
@@ -281,8 +281,7 @@ class Generator {
     w.end_tile();
   }
 
-  /// For devices that cull: every cull_block is a promise that holds. Some sheets are walls, which freeze what they
-  /// may.
+  /// For culling devices: every cull_block keeps its rules. Some sheets are walls, which freeze blocks.
   void promising_sheet(int width, int height, int dimming) {
     struct Planned {
       std::size_t which = 0;
@@ -318,7 +317,7 @@ class Generator {
         last.box = {first.x0, first.y0, first.x0 + last.ellipse.nx * c.P, first.y0 + last.ellipse.ny * c.P};
       }
     }
-    // Neighbours in a set of few: only then is it hidden now and then.
+    // Neighbours in a group of few splats: larger groups are hardly ever hidden.
     if (r.once_in(2)) {
       std::stable_sort(planned.begin(), planned.end(), [&](const Planned& a, const Planned& b) {
         return std::pair{a.box.y0 / (2 * c.P), a.box.x0 / (2 * c.P)} <

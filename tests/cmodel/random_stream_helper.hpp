@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random legal streams, boundary cases first: ties, saturation, every window phase and bank, all tile edges, footprints
-// wider than the lanes, overlapping radius sets, tables no driver would make.
+// wider than the lanes, overlapping radius sets, tables that no driver makes.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct RandomStream {
   std::uint64_t splats = 0;
 };
 
-/// Of devices that cull: where cull_blocks may stand. Whole: not between the splats of a set, as a fetching source
-/// wants.
+/// Places of cull_blocks for culling devices. Whole: never between the splats of a group, as a fetching source
+/// requires.
 enum class SetOrder { Any, Whole };
 
 /// At least `splats` splat records (a few more: sheets are not cut short); with ellipse.frac_bits about half of them

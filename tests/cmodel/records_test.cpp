@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records into beats and back: nothing is lost on the way, and a table takes the beats that its header announces.
+// Records into beats and back: nothing is lost, and a table takes the beats that its header announces.
 #include "cmodel/stream/records.hpp"
 
 #include <gtest/gtest.h>

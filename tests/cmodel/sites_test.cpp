@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The narrowing sites and who watches them: the table against the page's formats, ranges by hand and on random frames.
+// The narrowing sites and their observers: the table against the page's formats, ranges by hand and on random frames.
 #include "cmodel/numbers/sites.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using cmodel::Site;
 
-/// What docs/numerics.md, sections 3 to 7, writes at each site.
+/// The formats of each site in docs/numerics.md, sections 3 to 7.
 struct Row {
   Site site;
   oracle::Rounding rounding;
@@ -55,7 +55,7 @@ TEST(Sites, TableNarrowsAsThePageDoes) {
       const cmodel::Narrowing& site = sites[row.site];
       ASSERT_EQ(site.from_frac(), row.from_f) << cmodel::facts(row.site).name;
       for (int i = 0; i < 50; ++i, ++compared) {
-        // Around the ends and the ties of the format as well as anywhere.
+        // Values around the ends and the ties of the format, and arbitrary ones.
         const int drop = std::max(0, row.from_f - row.words.f);
         const auto largest = static_cast<std::int64_t>(row.words.largest);
         std::int64_t value = random.between(-4, largest + 4) >> random.between(0, 24);
@@ -135,7 +135,7 @@ TEST(Ranges, OfRandomFramesAgreeWithTheCountersAndChangeNothing) {
       EXPECT_LE(range.least, range.greatest);
       EXPECT_EQ(range.missing_bits(site) > 0, range.inexact > 0) << cmodel::kSiteFacts[i].name;
       EXPECT_LE(range.missing_bits(site), site.dropped_bits());
-      // The end of the range is all there is to know of overflow.
+      // For overflow the end of the range is sufficient.
       EXPECT_EQ(site(range.greatest).overflow || site(range.least).overflow, range.overflow > 0);
       dropping += range.inexact > 0 ? 1 : 0;
     }
@@ -147,7 +147,7 @@ TEST(Ranges, OfRandomFramesAgreeWithTheCountersAndChangeNothing) {
     EXPECT_EQ(counted.pixel_saturated, counters.pixel_saturated);
     EXPECT_EQ(seen(ranges, {Site::Snap}), 2 * counters.splats);
     EXPECT_EQ(seen(ranges, {Site::Product}), 4 * counters.lanes_weighted);
-    // What is composited at once is summed by nobody.
+    // Samples composited at once are not summed.
     if (config.composite_every_sample != 0) {
       EXPECT_LE(seen(ranges, {Site::Sum}), 4 * counters.lanes_weighted);
     } else {

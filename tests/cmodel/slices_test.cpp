@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// composite.lanes and counters.bits are of time and of registers alone: no word of any tap depends on them, and what
-// they do to time is the page's rule (docs/microarchitecture.md, M-slices-1 and M-walk-4).
+// composite.lanes and counters.bits affect time and registers only: no word of any tap depends on them. Their effect on
+// time is the page's rule (docs/microarchitecture.md, M-slices-1 and M-walk-4).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ cmodel::Config with_lanes(const char* name, int at_once) {
   return config;
 }
 
-/// The same records for every C: only the hash in begin_frame, and so the checksum, is another.
+/// The same records for every C: only the hash in begin_frame, hence the checksum, differs.
 std::vector<cmodel::Beat> records(const cmodel::Config& config) {
   Random random(kSeed);
   return to_beats(random_stream(symbols_of(config), random, 300).bytes);
@@ -66,7 +66,7 @@ TEST(Slices, NoWordDependsOnHowManyPixelsAreCompositedAtOnce) {
   EXPECT_EQ(configs, 4 + 6 + 8 + 6);
 }
 
-/// A sheet's walk by the page's rule, and the cycles of its composite taps by its slices.
+/// The length of a sheet's walk by the page's rule, and the cycles of its composite taps by its slices.
 struct Walk final : cmodel::CycleSink, cmodel::TapSink {
   explicit Walk(std::uint64_t slices, std::uint64_t way) : slices_(slices), way_(way) {}
   void on_tap(const cmodel::TapRecord& record) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small streams: a legal one with every kind of record, for tests that break it, and one with any tables.
+// Small streams: a legal one with every kind of record, for tests that break it, and one with given tables.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams with random damage: refused at the same beat by model and oracle, or taken and rendered the same by both.
+// Streams with random damage: refused at the same beat by model and oracle, or rendered the same by both.
 #include <gtest/gtest.h>
 
 #include "cmodel/model.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a refused beat is told: bounds as bounds, the true limit, and advice that fits the fault.
+// Messages about refused beats: bounds printed as bounds, the true limit, and a fix that fits the error.
 #include <gtest/gtest.h>
 
 #include "tests/cmodel/small_stream_helper.hpp"
@@ -67,7 +67,7 @@ TEST(StreamMessages, StateTheExpectedValue) {
   std::printf("[figure] messages held = %zu\n", std::size(kRefused));
 }
 
-// The limit that is named is the one that holds: one less, and it is the table's words that are too few.
+// The limit in the message is the effective one: one less, and the table has too few words.
 TEST(StreamMessages, TheLimitOfARadiusIsTheTrueOne) {
   const Verdict at = model_verdict(small_stream_config(), with(1, 2, 8));
   ASSERT_TRUE(at.refused_at);

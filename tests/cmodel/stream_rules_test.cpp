@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/stream.md: every rule broken once must be refused at its beat, and every single bit of a stream must matter to
-// the model exactly as it does to the oracle.
+// docs/stream.md: every rule broken once must be refused at its beat, and each bit of a stream must affect the model
+// exactly as it affects the oracle.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -176,7 +176,7 @@ TEST(StreamRules, CountAndChecksumOfTheEnd) {
     EXPECT_EQ(*model.refused_at, 21U) << model.text;
     EXPECT_EQ(disagreement(small_stream_config(), edit.bytes), "");
   }
-  Edit edit;  // a change that breaks no rule but the checksum
+  Edit edit;  // a change that breaks no rule except the checksum
   edit.set(9, 4, edit.get(9, 4) ^ 1);
   const Verdict model = model_verdict(small_stream_config(), edit.bytes);
   ASSERT_TRUE(model.refused_at);
@@ -195,7 +195,7 @@ TEST(StreamRules, TruncatedAnywhereIsRefused) {
   }
 }
 
-// S-record-3, S-record-4, and whatever a bit breaks.
+// S-record-3, S-record-4, and all rules that a bit can break.
 TEST(StreamRules, EverySingleBitCountsAsTheOracleSays) {
   int flips = 0, taken = 0;
   for (std::size_t bit = 0; bit < small_stream().size() * 8; ++bit) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes streams byte by byte from docs/stream.md, without the model's encoder. It writes whatever it is asked to, so
-// that tests can break rules too.
+// Writes streams byte by byte from docs/stream.md, without the model's encoder. It also writes illegal streams, so that
+// tests can break rules.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ class StreamWriter {
 
 /// The same bytes as the model takes them.
 std::vector<cmodel::Beat> to_beats(std::span<const std::uint8_t> bytes);
-/// Number of the first beat after begin_frame and the tables: table words may look like any record.
+/// Number of the first beat after begin_frame and the tables: table words may look like records.
 std::size_t first_tile_beat(std::span<const std::uint8_t> bytes);
 /// Puts the right beat count and CRC into the last beat, which is an end_frame.
 void seal(std::vector<std::uint8_t>& bytes);

@@ -7,7 +7,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// N of "beat N (byte offset 24 N)"; anything else is not a place in a stream.
+/// N of "beat N (byte offset 24 N)"; any other text is not a place in a stream.
 std::optional<std::uint64_t> beat_of(const std::string& where) {
   if (where.rfind("beat ", 0) != 0) return std::nullopt;
   const std::uint64_t beat = std::stoull(where.substr(5));

@@ -45,7 +45,7 @@ TEST(WindowGeometry, HoldsEveryPixelOfTheSupportAndNoWindowMore) {
   ASSERT_GT(compared, 0);
 }
 
-/// Any word of a stream may stand for rho: doubled it leaves 32 bits.
+/// A stream may hold any word for rho: doubled it leaves 32 bits.
 TEST(WindowGeometry, TheLargestRadiusDoesNotWrap) {
   Config config;
   config.phases = 64;

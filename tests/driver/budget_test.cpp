@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error budget: the integer image against the floating-point one. Never mixed with bit-exactness.
+// The error budget: the integer image against the floating-point one. Separate from bit-exactness.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ Lsb8 measure(const scene::SceneDescription& description, const std::string& conf
   const Image reference = golden::render(scene);
   double lit = 0.0;
   for (const float value : reference.data) lit = std::max(lit, static_cast<double>(value));
-  // An automatic X-ray exposure leaves room for a ray full of the densest material, which shells are not.
+  // An automatic X-ray exposure leaves room for a ray through only the densest material; the rays of shells are
+  // thinner.
   EXPECT_GT(lit, description.method == Method::XRay ? 0.05 : 0.2) << "a dark picture compares nothing";
   const Lsb8 apart = distance(reference, to_image(device.frame));
   const std::string what = std::string(scene::to_string(description.method)) + " " + description.volume + " " + config;
@@ -61,8 +62,8 @@ TEST(Budget, base_holds_it_additive_thin_thick_and_in_perspective) {
   EXPECT_GE(apart.psnr_db, 48.0);
 }
 
-// What `fine` is worth for colours: its centres lie four times as fine and its weights have no steps, which of pictures
-// as small as these is the lesser part (products and sums have 16 bits in both), but what shows at its worst pixel.
+// The gain of `fine` for colours: its centres are four times as fine and its weights have no steps. In pictures this
+// small that is the lesser part (products and sums have 16 bits in both), but it decides the worst pixel.
 TEST(Budget, fine_errs_less_than_base_from_far_and_near) {
   for (const double zoom : {1.0, 3.0, 8.0}) {
     auto description = view_of("shells:32", 128);

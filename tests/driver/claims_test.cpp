@@ -15,8 +15,8 @@ namespace {
 
 using scene::Method;
 
-/// A cube whose faces are told apart by shading, tilted: a one-coloured cube about one axis is mirror-symmetric at 45
-/// degrees and cannot pop (splatting.md, section 2, item 3).
+/// A tilted cube whose faces differ by shading. A one-coloured cube about one axis is mirror-symmetric at 45 degrees
+/// and cannot pop (splatting.md, section 2, item 3).
 Image cube(Method method, double width, double azimuth) {
   auto description = view_of("binary-cube:32", 128, "binary");
   description.method = method;

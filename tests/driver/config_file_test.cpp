@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A configuration written as TOML is read back as it was.
+// A configuration written as TOML reads back unchanged.
 #include "driver/config/config_file.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class ConfigFile : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
-  /// Its own of every process: tests run side by side.
+  /// A name of this process: tests run in parallel.
   std::filesystem::path path_ = std::filesystem::path(::testing::TempDir()) /
                                 ("fastsplat_config_file_test-" + std::to_string(::getpid()) + ".toml");
 };
@@ -36,7 +36,7 @@ TEST_F(ConfigFile, every_named_configuration_is_read_back) {
   EXPECT_GT(read, 0);
 }
 
-// A key that may be absent is written wherever it is not neutral, and its hash is another then.
+// An optional key is written if it is not neutral; it then changes the hash.
 TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
   int read = 0;
   for (const auto& key : cmodel::config_keys()) {
@@ -44,7 +44,7 @@ TEST_F(ConfigFile, keys_off_their_neutral_value_are_read_back) {
     for (int value = key.min; value <= key.max; ++value) {
       auto config = load_config("base");
       config.*key.member = value;
-      if (cmodel::first_violation(config)) {  // footprints that base has too many of
+      if (cmodel::first_violation(config)) {  // footprints too large for base's count
         config.index_kind = static_cast<int>(cmodel::IndexKind::Blit2d);
         config.phases = 32;
       }
@@ -68,7 +68,7 @@ TEST_F(ConfigFile, texts_of_any_kind_are_read_back) {
   EXPECT_EQ(read_back(config), config);
 }
 
-// A name stands in lines of text: what would split them, or be nothing there, is refused where it is written.
+// A name is printed in lines of text: names that would break or blank a line are refused when they are written.
 TEST_F(ConfigFile, names_that_split_a_line_are_refused) {
   auto config = load_config("tiny");
   int refused = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What culling brings of a real head (Debian's mricron-data): the same picture, cycles, and processor time.
+// The gain of culling on a real head (Debian's mricron-data): same picture, cycles, and processor time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,15 +57,16 @@ struct Goal {
   double times_fewer;  ///< with blocks and a source that jumps, at least
   double cost;         ///< at most, where every beat is sent
 };
-/// From much that hides to nothing (docs/culling.md). Thin fibres hide little: what lies between them stays open.
+/// From scenes that hide much to scenes that hide nothing (docs/culling.md). Thin fibres hide little: the gaps between
+/// them stay open.
 const Goal kGoals[] = {
     {"solid", "binary-cube:256", "binary", 512, 20.0, 1.0, 4.0, 0.01},
     {"256^3 opaque", "shells:256", "default", 512, 20.0, 1.0, 2.5, 0.01},
     {"opaque", "shells:128", "default", 512, 20.0, 1.0, 2.2, 0.01},
     {"fibres", "fire:128", "fire", 512, 1.0, 1.0, 0.99, 0.01},
     {"transparent", "shells:128", "default", 512, 0.05, 1.0, 0.99, 0.01},
-    // The deck's shares of visible voxels, and how many times less it took for them (54.6 s to 12.7 s at 3 %). A wall
-    // of 128 sheets that fills the picture; every set of it is as small as sets are, so its records cost a hundredth.
+    // The deck's shares of visible voxels, and its gain at each (54.6 s to 12.7 s at 3 %). A wall of 128 sheets fills
+    // the picture. All of its groups are as small as groups can be, so its records cost a hundredth.
     {"wall, 3 %", "binary-cube:256", "binary", 128, 20.0, 6.0, 54.6 / 12.7, 0.02},
     {"wall, 10 %", "binary-cube:256", "binary", 128, 0.69, 6.0, 17.6 / 8.4, 0.02},
     {"wall, 21 %", "binary-cube:256", "binary", 128, 0.28, 6.0, 35.8 / 14.8, 0.02},
@@ -97,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Goals, CulledScenes, ::testing::ValuesIn(kGoals), [](co
   return name;
 });
 
-/// Of this thread alone.
+/// Of this thread only.
 double processor_seconds() {
   timespec at{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &at);
@@ -112,7 +113,7 @@ TEST(CulledHead, TakesLessOfTheProcessor) {
   cmodel::Config off = load_config("base"), block = off;
   block.cull_map = static_cast<int>(cmodel::CullMap::Block);
   for (const Unit unit : {Unit::Fast, Unit::Plain}) {
-    double without = 1e9, with = 1e9;  // the best of some rounds, in turn
+    double without = 1e9, with = 1e9;  // the best of some rounds, alternating
     for (int round = 0; round < (unit == Unit::Fast ? 5 : 2); ++round) {
       const double a = processor_seconds();
       const DeviceRender unculled = render(scene, off, {.threads = 1, .unit = unit});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is the one without, sets
-// keep their promise, what is left out changes nothing, and what it costs and brings in cycles.
+// Culling from scene to picture (docs/numerics.md, sections 6.1 and 8, "Sets"): the picture is that without culling,
+// groups keep their rules, omitted splats change nothing; its cost and gain in cycles.
 #include <gtest/gtest.h>
 
 #include "cmodel/cycles/cycle_model.hpp"
@@ -23,7 +23,7 @@ cmodel::Config culling(const std::string& name, CullMap map) {
   return config;
 }
 
-/// Much of it is behind other of it.
+/// Much of it lies behind other parts of it.
 scene::SceneDescription opaque() {
   auto out = view_of("shells:40", 140);
   out.opacity_scale = 20.0;
@@ -35,7 +35,7 @@ struct Named {
   scene::SceneDescription description;
 };
 
-/// Of each method and projection that has sheets; some with much to hide.
+/// Scenes of each method and projection that has sheets; some with much to hide.
 std::vector<Named> scenes() {
   std::vector<Named> out;
   const auto add = [&](const std::string& name, scene::SceneDescription d) { out.push_back({name, std::move(d)}); };
@@ -68,7 +68,7 @@ TEST(CulledFrames, AreTheFramesWithout) {
         const DeviceRender skipped = render(scene, config, {.threads = 1, .unit = Unit::Plain});
         EXPECT_EQ(skipped.frame.words, off.frame.words) << name << ", " << device;
         EXPECT_EQ(render(scene, config, {.threads = 3}).counters, skipped.counters);
-        // The whole stream, of which no splat is left out.
+        // The whole stream, with every splat.
         cmodel::CullCounts counts;
         const DeviceRender whole = run_device(
             scene, config,
@@ -108,7 +108,7 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
       tiles = all;
     });
     const CullRun three = run_culls(compiled, 3);
-    // Tile by tile, to the last one; a device that does not cull has nothing to do.
+    // Tile by tile, to the last one; a device that does not cull has no work.
     figure("tiles reported", static_cast<double>(reported));
     EXPECT_EQ(reported, config.culls() ? static_cast<std::size_t>(compiled.grid().count()) : 0U);
     EXPECT_EQ(reported, tiles);
@@ -124,7 +124,7 @@ TEST(CulledFrames, LogsAreThoseOfTheWholeStream) {
   }
 }
 
-/// What the cycle model counts of a scene, and the model.
+/// The cycle model's counts for a scene, and the model's.
 TEST(CulledFrames, CycleModelCountsAsTheModel) {
   for (const auto& [name, description] : scenes()) {
     const auto scene = scene::build_scene(description);
@@ -155,7 +155,7 @@ TEST(CulledFrames, CycleModelCountsAsTheModel) {
   }
 }
 
-// Drawn is what the device took, without those it then hid one by one.
+// The device draws the splats that it took, minus those that it then hid one by one.
 TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
   CullRow off, row;
   off.counters.splats = 100;
@@ -168,8 +168,8 @@ TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
 }
 
 TEST(CulledFrames, CostNextToNothingWhereNothingHides) {
-  // So thin that no pixel freezes.
-  auto description = view_of("shells:96", 256);  // whole tiles: what lies beside one is hidden, too
+  // Too thin for any pixel to freeze.
+  auto description = view_of("shells:96", 256);  // whole tiles: a hidden tile hides its neighbour's part too
   description.opacity_scale = 0.02;
   const auto rows = compare_culling(scene::build_scene(description), load_config("base"), 40);
   ASSERT_EQ(rows.size(), 5U);

@@ -28,7 +28,7 @@ enum Shaper {
   kRow = 16
 };  // kRow: motion exactly along a row
 
-/// A few voxels, mostly off the picture's centre, as far as a tenth and as near as a hundred pixels a voxel.
+/// A few voxels, mostly off the picture's centre, from a tenth of a pixel to a hundred pixels a voxel.
 scene::Scene random_scene(test::Random& random, const cmodel::Config& config, scene::Method method, int shapers) {
   while (true) {
     glm::ivec3 dims;
@@ -77,7 +77,7 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, sc
           std::clamp(wanted / (usual.kernel.radius() * volume->kernel_unit() * usual.camera.scale_at(0.0)), 1e-3, 1e3);
       return scene::build_scene(description, volume);
     } catch (const UserError&) {
-      // an eye inside the volume, or one that the volume's way passes: another one
+      // an eye inside the volume, or one that the volume's path passes: draw again
     }
   }
 }
@@ -115,7 +115,7 @@ TEST(EllipseOracle, EveryBeatOfThinFootprintsAlongARow) {
   EXPECT_GT(figures.met.thin_ellipses, 50U);
 }
 
-// On other devices: random configurations with ellipses, in every kind of index that may have them.
+// Other devices: random configurations with ellipses, in every kind of index that may have them.
 TEST(EllipseOracle, EveryBeatOfRandomConfigurations) {
   test::Random random(test::seed_or(82));
   OracleFigures figures;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ellipses as words of squared_elliptic (docs/numerics.md, section 4.3): against the ellipse itself, in reals.
+// Ellipses as words of squared_elliptic (docs/numerics.md, section 4.3), against the ellipse in reals.
 #include "driver/tables/ellipse_set.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ struct Axes {
     return along * along / (longer * longer) + across * across / (shorter * shorter);
   }
 };
-/// Long half axes to 32 pixels, short ones no less than `aspect` times shorter.
+/// Long half axes up to 32 pixels, short ones at most `aspect` times shorter.
 Axes random_axes(test::Random& random, double aspect) {
   Axes axes{.longer = 32.0 * std::pow(2.0, -4.0 * unit(random)),
             .shorter = 0.0,
@@ -50,7 +50,7 @@ Axes random_axes(test::Random& random, double aspect) {
   return axes;
 }
 
-// q by the words is nowhere negative, and inside the rim off by less than the page's bound.
+// q by the words is never negative, and inside the rim its error is below the page's bound.
 TEST(EllipseSets, QIsTheEllipsesToWithinTheBound) {
   test::Random random(test::seed_or(81));
   double worst = 0.0, entries_off = 0.0;
@@ -88,7 +88,7 @@ TEST(EllipseSets, QIsTheEllipsesToWithinTheBound) {
   EXPECT_GT(worst, 0.25) << "the bound says nothing";
 }
 
-// N-4.3-7: h. No roots of the words' matrix below 0, up to the flattest that the page allows.
+// N-4.3-7: h. The words' matrix has no eigenvalue below 0, up to the flattest ellipse that the page allows.
 TEST(EllipseSets, TheFlattestAreStillEllipses) {
   test::Random random(test::seed_or(82));
   const auto config = elliptic(1024);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splats with shapes of their own: what the driver makes of them, and how far the device's picture is from golden's.
+// Splats with individual shapes: the driver's records, and the error of the device's picture against golden's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ TEST(Ellipses, EveryTechniqueIsWithinOneLsb8OfGolden) {
   }
 }
 
-/// Evenly spread over 0..1, without a repetition.
+/// Evenly spread over 0..1, without repetition.
 double spread(int i, double base) {
   double value = 0.0, step = 1.0 / base;
   for (int n = i + 1; n > 0; n /= static_cast<int>(base), step /= base) value += step * (n % static_cast<int>(base));
@@ -163,7 +163,7 @@ TEST(Ellipses, SpansHoldEveryPixelOfWeightOnceAndRecordsKeepTheRule) {
   EXPECT_GT(pixels, 50000u);
   EXPECT_GT(cut, 100u);
   EXPECT_LT(windows, boxed);
-  // 3/2 N (long/short)^2 2^-21 (numerics.md, below N-8-48), of the thinnest here.
+  // 3/2 N (long/short)^2 2^-21 (numerics.md, below N-8-48), for the thinnest one here.
   EXPECT_LE(worst_entries, 1.5 * config.radial_entries * 96.0 * 96.0 * 0x1p-21);
 }
 
@@ -198,7 +198,7 @@ TEST(Ellipses, ThinFootprintsAreWidenedWithAWarning) {
   const auto device = render(scene::build_scene(description), load_config("ellipse"));
   figure("voxels widened", static_cast<double>(device.report.widened_voxels));
   EXPECT_GT(device.report.widened_voxels, 0u);
-  // Raised across, the same along, and as much in all.
+  // Raised across, unchanged along, with the total preserved.
   const scene::ScreenShape thin{.xx = 4.0, .xy = 0.0, .yy = 1e-4};
   const scene::ScreenShape drawn = drawn_footprint(thin, 2.0);
   EXPECT_DOUBLE_EQ(drawn.xx, 16.0);
@@ -223,7 +223,7 @@ TEST(Ellipses, KernelsGrownBeyondTheWordShareOutAllTheSame) {
   figure("voxels", static_cast<double>(voxels));
   figure("records", static_cast<double>(device.counters.splats));
   EXPECT_GT(voxels, 0u);
-  // Half of each in the first sheet and half in the last, and a step of the table where it crosses a boundary between.
+  // Half of each in the first sheet and half in the last, plus a step of the table where it crosses a boundary between.
   EXPECT_EQ(device.counters.splats, 3 * voxels);
 }
 

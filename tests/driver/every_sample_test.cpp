@@ -40,7 +40,7 @@ const Look kLooks[] = {
     {"motion", "ellipse", [](scene::SceneDescription& d) { d.motion.orbit = 12.0; }},
 };
 
-// What sheets of ellipses are held to (ellipses_test.cpp).
+// The limits of sheets of ellipses (ellipses_test.cpp).
 TEST(EverySample, IsWithinOneLsb8OfGolden) {
   for (const Look& look : kLooks) {
     auto description = westover("shells:24", 96);
@@ -67,7 +67,7 @@ double mean_alpha(const cmodel::Frame& frame) {
   return 255.0 * sum / (static_cast<double>(image.data.size()) / 4.0);
 }
 
-// What a layer adds, a1 + a2, is more than what its samples leave, a1 + a2 (1 - a1): Westover's picture is thinner.
+// A layer adds a1 + a2, which is more than its samples leave, a1 + a2 (1 - a1): Westover's picture is thinner.
 TEST(EverySample, DimsTheSumsOfSheets) {
   auto description = westover("shells:24", 64);
   description.slab_opacity = scene::SlabOpacity::Additive;

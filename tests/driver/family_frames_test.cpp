@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames of every kind of index: tiles and units that must not matter, kinds that must agree, and golden, within
+// Whole frames of every kind of index: independence of tiles and units, kinds that must agree, and golden, within
 // bounds derived for each pixel.
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr IndexKind kKinds[] = {IndexKind::Linear, IndexKind::Squared, IndexKind
 
 std::string name_of(IndexKind kind) { return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)]; }
 
-/// base of a kind; of blit2d with the phases that its tables have room for.
+/// base with a kind; for blit2d with as many phases as its tables can hold.
 cmodel::Config base_of(IndexKind kind) {
   auto config = load_config("base");
   config.index_kind = static_cast<int>(kind);
@@ -46,7 +46,7 @@ TEST_P(FamilyFrames, TilesAndUnitsDoNotMatter) {
       const auto scene = scene::build_scene(description);
       auto config = base_of(GetParam());
       config.rlut_sets = 4;
-      config.position_frac_bits = 4;  // as many phases as every frame's footprints have to be filled in for
+      config.position_frac_bits = 4;  // as many phases as the footprints of every frame need
       config.phases = 8;
       config.tile_width = config.tile_height = 72;
       const auto whole = render(scene, config, {.unit = Unit::Plain});
@@ -89,10 +89,10 @@ TEST(FamilyPairs, ACircleIsAnEllipseAndAnImageItsMirrorImage) {
   figure("words compared", static_cast<double>(2 * squared.frame.words.size()));
 }
 
-/// What a kind's weight may differ by from F at the true place, in units of the peak.
+/// The largest error of a kind's weight from F at the true place, in units of the peak.
 struct WeightBound {
   double anywhere = 0.0;  ///< within the support
-  double rim = 0.0;       ///< besides, near the rim: inside for one, outside for the other
+  double rim = 0.0;       ///< in addition, near the rim: inside for one, outside for the other
   double shift = 0.0;     ///< of the centre, pixels
   bool square = false;    ///< support
 };
@@ -130,7 +130,7 @@ WeightBound bound_of(const cmodel::Config& config, double a, double R, double r)
   return bound;
 }
 
-/// Every pixel of an X-ray against golden's: what each splat over it may be off by is added up.
+/// Every pixel of an X-ray against golden's: the error bounds of all splats over it are added up.
 TEST_P(FamilyFrames, XRayIsGoldensWithinTheBoundOfEachPixel) {
   const auto scene = xray_of("shells:16", 90);
   auto config = base_of(GetParam());
@@ -142,7 +142,8 @@ TEST_P(FamilyFrames, XRayIsGoldensWithinTheBoundOfEachPixel) {
   const double amplitude = peak * given.cx * given.cy * given.cz * scene.xray_scale;
   const double r = given.R * given.u * given.scale_at_corner[0];  // orthographic: of all
   const WeightBound weight = bound_of(config, given.a, given.R, r);
-  // A colour word is rounded to half of 2^-cf, a product to half of 2^-sf; what vanishes is less than half a word.
+  // A colour word is rounded to half of 2^-cf, a product to half of 2^-sf; a product that vanishes is less than half a
+  // word.
   const double words = std::ldexp(0.5, -config.colour_frac_bits) + std::ldexp(0.5, -config.sheet_frac_bits);
   const double reach = r + weight.shift, least = r - weight.shift - 1.0 / config.grid();
   std::vector<double> bound(static_cast<std::size_t>(given.width) * static_cast<std::size_t>(given.height), 0.0);
@@ -181,8 +182,8 @@ TEST_P(FamilyFrames, XRayIsGoldensWithinTheBoundOfEachPixel) {
   EXPECT_GT(share, 0.01) << "the bound says nothing";
 }
 
-// As fine as they can be made, squared and rlut are the same device: their centres lie on one grid, and their entries
-// differ by one where q is next to a step, that is by a word of the table's slope.
+// At their finest, squared and rlut are the same device: their centres lie on one grid. Their entries differ by one if
+// q is next to a step, which is one word of the table's slope.
 TEST(FamilyPairs, SquaredIsRlutOfAsManyPhasesAsPositionsHave) {
   const auto scene = xray_of("shells:16", 90);
   auto rlut = base_of(IndexKind::Rlut);
@@ -195,7 +196,7 @@ TEST(FamilyPairs, SquaredIsRlutOfAsManyPhasesAsPositionsHave) {
   const double peak = given.a / (std::numbers::pi * (1.0 - std::exp(-given.a * given.R * given.R)));
   const double amplitude = peak * given.cx * given.cy * given.cz * scene.xray_scale;
   const double r = given.R * given.u * given.scale_at_corner[0];
-  // One entry further: the slope of F, and a word of rounding each; the rim's entry against none is less than that.
+  // One entry further: the slope of F, and a word of rounding each; the difference at the rim is smaller than that.
   const double step = given.a * given.R * given.R / rlut.radial_entries + std::ldexp(2.0, -rlut.radial_frac_bits);
   ASSERT_GT(step, std::exp(-given.a * given.R * given.R));
   const auto a = to_image(render(scene, rlut).frame), b = to_image(render(scene, squared).frame);

@@ -35,7 +35,7 @@ TEST_P(DriverFamily, EveryBeatIsThePages) {
   EXPECT_GT(figures.met.carried_words, 0U);
 }
 
-// A scale has 24 bits and is not less than what it stands for, by less than a bit (N-4.1-3, N-4.2-4).
+// A scale has 24 bits. It is at least the value that it stands for, and larger by less than a bit (N-4.1-3, N-4.2-4).
 TEST(FamilyTables, ScalesAreRoundedUp) {
   const auto config = load_config("base");
   test::Random random(test::seed_or(72));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames by the fast unit beside the plain one: words, counters and report, with every kind of vector instruction
-// this processor has.
+// Whole frames by the fast unit and the plain one: words, counters and report, with every kind of vector instruction of
+// this processor.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ class Targets {
 
 class UnitsCompared {
  public:
-  /// A frame with every target; other threads and heights of bands each time. A scene that the configuration cannot
-  /// draw is passed over.
+  /// A frame with every target, with varying threads and band heights. Scenes that the configuration cannot draw are
+  /// skipped.
   void frame(const std::string& name, const std::string& what, const scene::SceneDescription& description,
              const cmodel::Config& config);
   void gaussians(const std::string& what, const GaussianFrame& frame);
-  /// Prints the figures; expects no difference, and tiles that the fast unit drew for every `name`.
+  /// Prints the figures; expects no difference, and at least one tile drawn by the fast unit for every `name`.
   void finish() const;
   std::size_t combinations() const { return combinations_; }
   std::uint64_t redone() const;

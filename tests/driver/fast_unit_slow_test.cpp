@@ -57,7 +57,7 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
   EXPECT_GT(compared.combinations(), 300u);
 }
 
-// Footprints of their own, in sheets and sample by sample; kernels that grow in depth; splats that freeze whole blocks.
+// Individual footprints, in sheets and sample by sample; kernels that grow in depth; splats that freeze whole blocks.
 const Setting kShapes[] = {
     {"perspective",
      [](scene::SceneDescription& d) {
@@ -110,7 +110,7 @@ TEST(FastUnit, DrawsEllipsesAndSamplesAsThePlainUnit) {
   EXPECT_GT(compared.combinations(), 60u);
 }
 
-// Densities: blocks of the rim, tiles that see each other's edges, ellipses, pictures in the footprints.
+// Densities: blocks of the rim, tiles that read each other's edges, ellipses, pictures in the footprints.
 TEST(FastUnit, DrawsDensitiesAsThePlainUnit) {
   const Setting densities[] = {
       {"whole slabs", [](scene::SceneDescription&) {}},

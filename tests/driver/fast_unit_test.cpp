@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fast unit counts without drawing it: records that nobody sees, of splats, of a hidden cell's and of ellipses
-// that reach over several bands. The plain unit makes every one of them. (Words and more scenes,
-// fast_unit_slow_test.cpp.)
+// Counts of the fast unit for records that it does not draw: hidden splats, splats of hidden cells, and ellipses that
+// reach over several bands. The plain unit makes every one of them. (Words and more scenes: fast_unit_slow_test.cpp.)
 #include <gtest/gtest.h>
 
 #include "driver/config/config_file.hpp"
@@ -15,7 +14,7 @@ struct Both {
   DeviceRender fast, plain;
 };
 
-/// Both units' frames, each drawn by the unit it is named after, the fast one in bands of a row of blocks.
+/// The frames of both units, each drawn by the named unit; the fast one in bands of one row of blocks.
 Both drawn(const scene::SceneDescription& description, const cmodel::Config& config) {
   EXPECT_FALSE(cmodel::first_violation(config));
   const scene::Scene scene = scene::build_scene(description);
@@ -33,7 +32,7 @@ Both drawn(const scene::SceneDescription& description, const cmodel::Config& con
   return out;
 }
 
-// So opaque that shares leave U 0.cf and blocks freeze, and yet no sum leaves the sheet.
+// Opaque enough that shares leave U 0.cf and blocks freeze, but no sum leaves the sheet.
 TEST(FastUnitCounts, HiddenRecordsThatAreSaturated) {
   auto description = view_of("shells:24", 60);
   description.opacity_scale = 80.0;
@@ -44,8 +43,8 @@ TEST(FastUnitCounts, HiddenRecordsThatAreSaturated) {
   EXPECT_GT(both.fast.report.saturated_records, 1000U);
 }
 
-// The same on a device that culls: of small footprints, whose splats are many enough to be sets, and behind which they
-// get so few that they are none. Sheets have room for all that lies over each other.
+// The same on a culling device: many small footprints form groups, and behind them few do not. Sheets have room for all
+// overlapping splats.
 TEST(FastUnitCounts, SaturatedRecordsOfADeviceThatCulls) {
   auto description = view_of("shells:48", 64);
   description.opacity_scale = 100.0;
@@ -53,7 +52,7 @@ TEST(FastUnitCounts, SaturatedRecordsOfADeviceThatCulls) {
   config.cull_map = static_cast<int>(cmodel::CullMap::Block);
   config.sheet_int_bits = 4;
   const Both both = drawn(description, config);
-  // Less than the device without: records of hidden sets are not made.
+  // Fewer than on the device without culling: records of hidden groups are not made.
   config.cull_map = static_cast<int>(cmodel::CullMap::Off);
   const DeviceRender off = render(scene::build_scene(description), config, {.threads = 1});
   figure("records, none left out", static_cast<double>(off.report.splat_records));
@@ -67,8 +66,8 @@ TEST(FastUnitCounts, SaturatedRecordsOfADeviceThatCulls) {
   EXPECT_GT(both.fast.units.hidden_splats, 1000U);
 }
 
-// Ellipses of several records, one above the other: a band counts those that begin in it, whatever others the splat
-// has.
+// Ellipses of several records, one above the other: a band counts the records that begin in it, whatever other records
+// the splat has.
 TEST(FastUnitCounts, EveryRecordOfAnEllipseInOneBand) {
   auto description = view_of("shells:12", 96);
   description.camera.projection = scene::Projection::Perspective;

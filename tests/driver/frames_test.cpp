@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole frames through the device: what must not depend on tiling, threads, sheets or order.
+// Whole frames through the device: independence of tiling, threads, sheets and order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ TEST(Frames, xray_in_any_number_of_sheets_is_bit_exact_where_the_product_is_kept
   }
 }
 
-/// Records how often each pixel gets a product, to bound what rounding them may add up to.
+/// Counts the products of each pixel, to bound the sum of their rounding errors.
 class ProductCount final : public cmodel::TapSink {
  public:
   ProductCount(int width, int height)
@@ -129,7 +129,7 @@ TEST(Frames, xray_sheets_elsewhere_stay_within_half_an_ulp_per_product) {
     const auto many = tapped(scene::build_scene(description), config, many_count);
     double tightest = 0.0;
     for (std::size_t i = 0; i < one.words.size(); ++i) {
-      // Each product is rounded once: the whole splats' and the slices' errors add up to at most half a word each.
+      // Each product is rounded once: the errors of whole splats and slices add up to at most half a word each.
       const double bound = 0.5 * static_cast<double>(one_count.at(i / 4) + many_count.at(i / 4));
       const double apart = std::abs(static_cast<double>(one.words[i]) - many.words[i]);
       ASSERT_LE(apart, bound) << "value " << i;
@@ -150,7 +150,7 @@ TEST(Frames, order_of_splats_within_a_sheet_does_not_matter) {
     std::uint64_t splats = 0;
     FrameSink plain(config, 96, 96), shuffled(config, 96, 96);
     std::mt19937 random(20000);
-    // S-tile-5: to each device one tile.
+    // S-tile-5: one tile for each device.
     for (int tile = 0; tile < compiled.grid().count(); ++tile) {
       cmodel::Model a(config, cmodel::StreamScope::Subset, plain), b(config, cmodel::StreamScope::Subset, shuffled);
       a.consume(compiled.preamble());

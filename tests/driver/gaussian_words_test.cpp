@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every record of a view of 3-D Gaussians from docs/numerics.md, section 8, alone: places, colours, shapes, order,
-// counts. (Which windows, gaussians_test.cpp.)
+// counts. (Windows: gaussians_test.cpp.)
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// The words that the page says (N-8-84).
+/// The words by the page (N-8-84).
 struct Words {
   std::int64_t x, y, a, b, c, h;
   std::array<std::int64_t, 4> colour;
@@ -59,7 +59,7 @@ TEST(GaussianWords, AreThoseOfThePage) {
     description.camera.zoom = 1.7;
     description.width = 150, description.height = 110;
     auto cloud = scene::make_synthetic_gaussians(name);
-    cloud.harmonics[3] = glm::vec3(9.0F);  // one that is cut
+    cloud.harmonics[3] = glm::vec3(9.0F);  // a truncated one
     const auto scene =
         scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(cloud)));
     const auto projected = scene::project_all(scene);
@@ -72,7 +72,7 @@ TEST(GaussianWords, AreThoseOfThePage) {
       const auto& begin = std::get<cmodel::BeginTile>(all.front());
       EXPECT_EQ(begin.mode, cmodel::Mode::SampleAdditive);
       EXPECT_EQ(begin.tile, static_cast<std::uint32_t>(tile));
-      std::size_t at = 0;  // nearest first: a record's Gaussian is the one before's, or one behind it
+      std::size_t at = 0;  // nearest first: a record's Gaussian is that of the previous record, or one behind it
       std::uint64_t here = 0;
       const cmodel::EllipseRecord* before = nullptr;
       for (const cmodel::Record& record : all) {

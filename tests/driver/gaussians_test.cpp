@@ -27,7 +27,7 @@ namespace {
 
 using scene::GaussianCloud;
 
-/// What `render --gaussians` takes where nothing is said.
+/// The defaults of `render --gaussians`.
 cmodel::Config usual_config() {
   cmodel::Config config = load_config("ellipse");
   config.composite_every_sample = 1;
@@ -81,8 +81,8 @@ TEST(Gaussians, AreWithin70dBOfGolden) {
   }
 }
 
-// base's own words with ellipses of every sample: positions of 6 bits, frozen below 64.
-// Words of shapes are made without a limit of their own: what would exceed them is refused.
+// base's own words with ellipses of every sample: positions of 6 bits, frozen below 64. Words of shapes are made
+// without a limit; shapes that exceed it are refused.
 TEST(Gaussians, FootprintsTooSmallForTheWordsAreRefused) {
   cmodel::Config config = usual_config();
   config.rlut_guard_bits = 12;
@@ -119,7 +119,7 @@ TEST(Gaussians, BasesWordsAreAbove50dB) {
   }
 }
 
-// Which words matter: each shortened by itself until it shows.
+// The words that matter: each is shortened alone until it shows.
 TEST(Gaussians, WordsThatMatter) {
   const auto scene = scene_of("cloud:500", 256, 256);
   const auto projected = scene::project_all(scene);
@@ -142,7 +142,7 @@ TEST(Gaussians, WordsThatMatter) {
     figure(std::string(key) + " = " + std::to_string(value), psnr, "dB");
     found[std::string(key) + "=" + std::to_string(value)] = psnr;
   };
-  for (const int bits : {2, 4, 6}) {  // phases, of which ellipses know nothing, are no finer than positions
+  for (const int bits : {2, 4, 6}) {  // phases, which ellipses do not use, are no finer than positions
     found["position.frac_bits=" + std::to_string(bits)] =
         with({{"position.frac_bits", bits}, {"snap.phases", 1 << bits}});
     figure("position.frac_bits = " + std::to_string(bits), found["position.frac_bits=" + std::to_string(bits)], "dB");
@@ -159,7 +159,7 @@ TEST(Gaussians, WordsThatMatter) {
     figure("composite.frac_bits = " + std::to_string(bits), psnr, "dB");
     found["composite.frac_bits=" + std::to_string(bits)] = psnr;
   }
-  // The table's steps are what is left; twice the entries, 6 dB.
+  // The table's steps remain; twice the entries, 6 dB.
   EXPECT_GT(found["radial.entries=4096"], whole + 3.0);
   EXPECT_LT(found["radial.entries=64"], whole - 15.0);
   EXPECT_LT(found["composite.frac_bits=8"], whole - 15.0);
@@ -167,7 +167,7 @@ TEST(Gaussians, WordsThatMatter) {
   EXPECT_LT(found["position.frac_bits=2"], whole - 10.0);
 }
 
-// N-8-86: the windows of a tile hold every pixel with a weight, and each once; whatever the shape, place and tile.
+// N-8-86: the windows of a tile hold every pixel with a weight exactly once, for every shape, place and tile.
 TEST(Gaussians, WindowsHoldEveryWeightedPixelOnce) {
   auto config = usual_config();
   config.tile_width = 64, config.tile_height = 48;
@@ -218,8 +218,8 @@ TEST(Gaussians, WindowsHoldEveryWeightedPixelOnce) {
   EXPECT_EQ(twice, 0U);
 }
 
-// A whole recorded stream: the reader takes it by every rule, and the oracle, written from the documents alone, says
-// the same words, taps and counters as the model.
+// A whole recorded stream: the reader accepts it by every rule. The oracle, written from the documents alone, has the
+// words, taps and counters of the model.
 TEST(Gaussians, ModelEqualsOracle) {
   test::Comparison total;
   for (const auto& [name, width, height, zoom] :
@@ -249,8 +249,8 @@ TEST(Gaussians, ModelEqualsOracle) {
   EXPECT_GT(total.total(), 500000U);
 }
 
-// A device whose positions are short: a record's centre fits S pi.pf in every tile that it is drawn in, and in the
-// farthest such tile it is the last pixel but one of what fits (N-8-85).
+// A device with short positions: a record's centre fits S pi.pf in every tile that it is drawn in. In the farthest such
+// tile it is the last pixel but one of the range (N-8-85).
 TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {
   auto config = usual_config();
   config.position_int_bits = 10;  // pixels -512..511
@@ -282,8 +282,8 @@ TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {
       if (left > centre) farthest_left = std::max(farthest_left, left - centre);
     }
   }
-  // L = 2^9 - 1 - 128 = 383, and drawn is what lies within -L .. L-1 of the centre's pixel: a tile's last pixel, 127,
-  // is L before a centre in pixel 510, and its first L - 1 behind one in pixel -382.
+  // L = 2^9 - 1 - 128 = 383. Pixels within -L .. L-1 of the centre's pixel are drawn: a tile's last pixel, 127, is L
+  // before a centre in pixel 510, and its first L - 1 behind one in pixel -382.
   figure("records", static_cast<double>(records));
   figure("farthest centre from a tile's first pixel, to the right", farthest_right);
   figure("farthest centre from a tile's first pixel, to the left", farthest_left);
@@ -312,7 +312,7 @@ TEST(Gaussians, LongRowsAreCutInto32WindowsAtATime) {
   }
 }
 
-// The device's work in its own unit: windows, of which one is begun a cycle but for what waits for a pixel.
+// The device's work in its own unit, windows: one begins in each cycle, unless it waits for a pixel.
 TEST(Gaussians, WindowsEqualTheRecords) {
   const auto config = usual_config();
   const cmodel::EllipseUnit unit(config);
@@ -352,7 +352,7 @@ TEST(Gaussians, WindowsEqualTheRecords) {
   }
 }
 
-// What each unit says of itself; their words on more scenes, fast_unit_slow_test.cpp.
+// The message of each unit; their words on more scenes are in fast_unit_slow_test.cpp.
 TEST(Gaussians, BothUnitsDrawAndCountTheSame) {
   const auto scene = scene_of("shells:300", 150, 100);
   const GaussianFrame frame(scene, scene::project_all(scene), usual_config());
@@ -370,7 +370,7 @@ TEST(Gaussians, BothUnitsDrawAndCountTheSame) {
   }
 }
 
-// A picture is that of smaller tiles but for what six coefficients round at another first pixel.
+// A picture equals that of smaller tiles, except for the rounding of six coefficients at another first pixel.
 TEST(Gaussians, TilesHardlyShow) {
   auto config = usual_config();
   const auto scene = scene_of("shells:400", 200, 150);
@@ -384,7 +384,7 @@ TEST(Gaussians, TilesHardlyShow) {
   EXPECT_GE(apart.psnr_db, 85.0);
 }
 
-// N-8-83: what they need.
+// N-8-83: the requirements.
 TEST(Gaussians, ShapesThatDoNotFitAreCountedOrRefused) {
   const auto config = usual_config();
   for (const char* other : {"base", "ellipse"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Techniques that the device does not have are refused by name, never left out in silence.
+// Techniques that the device lacks are refused by name, never ignored silently.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -50,7 +50,7 @@ TEST(GoldenOnly, techniques_are_refused_by_their_key) {
   }
 }
 
-// N-8-18: a texture at the voxels is not golden only: the splats come tinted.
+// N-8-18: a texture at the voxels also works on the device: the splats come tinted.
 TEST(GoldenOnly, textured_voxels_are_the_devices_too) {
   auto description = view_of("shells:24", 96);
   const Image plain = golden::render(scene::build_scene(description));

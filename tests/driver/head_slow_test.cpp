@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main job: a real head scan at 512 x 512, integer against golden (Debian's mricron-data).
+// The main use: a real head scan at 512 x 512, integer against golden (Debian's mricron-data).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ TEST(Head, base_at_512_holds_48_db_and_3_lsb8) {
   EXPECT_EQ(device.report.saturated_voxels + device.report.saturated_records, 0u);
 }
 
-// The shortest words there are: 8 bits of colour, where every voxel of a brain is thinner than a word.
+// The shortest words that exist: 8 bits of colour, where every voxel of a brain is thinner than a word.
 TEST(Head, an_xray_on_tiny_holds_44_db_at_every_size) {
   std::string why_not;
   const auto volume = head_scan(why_not);
@@ -54,8 +54,8 @@ TEST(Head, an_xray_on_tiny_holds_44_db_at_every_size) {
   }
 }
 
-// Classified by pixel, 3 pixels a voxel, all of the picture covered: base's centres on 1/64 pixel and the steps of its
-// radial table are what shows.
+// Classified by pixel, 3 pixels a voxel, the whole picture covered: base's centres on 1/64 pixel and the steps of its
+// radial table dominate the error.
 TEST(Head, post_classified_holds_45_db_in_base_and_57_db_in_fine) {
   std::string why_not;
   const auto volume = head_scan(why_not);
@@ -76,7 +76,7 @@ TEST(Head, post_classified_holds_45_db_in_base_and_57_db_in_fine) {
   }
 }
 
-// Marble of 30 mm on the head, a millimetre a pixel: what lies between nodes is what shows.
+// Marble of 30 mm on the head, a millimetre a pixel: interpolation between nodes dominates the error.
 TEST(Head, marble_holds_45_db_with_128_nodes_a_side) {
   std::string why_not;
   const auto volume = head_scan(why_not);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last bit of a double decides no word of an anti-aliased stream: a kernel that has grown is one pixel a voxel, and
-// its A and C would otherwise lie exactly on a step of their rounding.
+// The last bit of a double does not decide any word of an anti-aliased stream. A kernel that has grown is one pixel a
+// voxel, so its A and C would otherwise lie exactly on a step of their rounding.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of faults that mutants.sh plants: each still finds the text that it breaks.
+// The list of faults that mutants.sh plants: the text that each one changes still exists.
 #include <gtest/gtest.h>
 
 #include <fstream>

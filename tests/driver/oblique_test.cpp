@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Oblique grids are drawn as they lie in the body: an object scanned by a pitched or sheared grid looks as by a
-// straight one, to every method of both engines, and shading sees the same surface.
+// Oblique grids are drawn in their place in the body: an object scanned by a pitched or sheared grid looks as if
+// scanned by a straight one, in every method of both engines, and shading uses the same surface.
 #include <cmath>
 #include <numbers>
 
@@ -34,8 +34,7 @@ double body(const glm::dvec3& p) {
 
 class Oblique : public volume::TemporaryFolder {
  protected:
-  /// The body as a grid with these axes samples it, from a file, as a scanner's is; what the header says of them may
-  /// be left unheard.
+  /// The body sampled by a grid with these axes, from a file as a scanner writes it; its header's axes may be ignored.
   std::shared_ptr<const volume::Volume> scanned(const glm::dmat3& axes, const std::string& ending,
                                                 bool heard = true) const {
     volume::Volume grid = volume::make_volume(glm::ivec3(kSide), {1.0, 1.0, 1.0}, volume::VoxelType::F32,

@@ -98,13 +98,13 @@ scene::Scene random_scene(test::Random& random, const cmodel::Config& config, co
     const double most = config.max_extent() / 2.0;
     const double wanted = random.once_in(3) ? real(random, 0.3, 1.1) * most : ratio(random, 0.4, std::min(9.0, most));
     try {
-      // Pixels per radius at zoom 1, then at the zoom that is wanted: in perspective the nearest is larger.
+      // Pixels per radius at zoom 1, then at the wanted zoom: in perspective the nearest is larger.
       const double usual = scene::build_scene(description, volume).kernel.radius() * volume->kernel_unit() *
                            scene::build_scene(description, volume).camera.scale_at(0.0);
       description.camera.zoom = std::clamp(wanted / usual, 1e-3, 1e3);
       return scene::build_scene(description, volume);
     } catch (const UserError&) {
-      // an eye inside the volume: another one
+      // an eye inside the volume: draw again
     }
   }
 }
@@ -130,7 +130,7 @@ std::string differing_field(const Beat& expected, const Beat& got) {
   return "a bit that no field has";
 }
 
-/// Empty where they are equal. Payloads of tables are told by table and word.
+/// Empty if they are equal. Payloads of tables are named by table and word.
 std::string difference(const std::vector<Beat>& expected, const std::vector<cmodel::Beat>& got) {
   std::size_t payload = 0, word = 0;
   std::string table, sheet;
@@ -162,7 +162,7 @@ std::string difference(const std::vector<Beat>& expected, const std::vector<cmod
   return "";
 }
 
-/// Empty where the frames are equal, and their reports.
+/// Empty if the frames and their reports are equal.
 std::string frame_difference(const scene_oracle::Frame& expected, const CompiledFrame& compiled) {
   const auto preamble = compiled.preamble();
   const std::string first = difference(expected.preamble, {preamble.begin(), preamble.end()});

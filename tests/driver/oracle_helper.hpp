@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver beside its oracle: random scenes, every beat of a frame compared, and what was compared.
+// The driver beside its oracle: random scenes, every beat of a frame compared, and counts of the comparisons.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace fastsplat::driver {
 
-/// A volume of given voxels, 0 and 1 being the ends of the transfer functions' range.
+/// A volume of given voxels; 0 and 1 are the ends of the transfer functions' range.
 std::shared_ptr<const volume::Volume> volume_of(glm::ivec3 dims, glm::dvec3 spacing, std::vector<float> voxels);
 
 struct OracleFigures {
@@ -33,8 +33,8 @@ void compare_random_frames_of(cmodel::IndexKind kind, test::Random& random, int 
                               OracleFigures& figures);
 /// One figure per line; expects no mismatch.
 void print_and_expect_equal(const OracleFigures& figures);
-/// Expects that every case of the page was met but the rims of the first and last slab and ellipses, which need scenes
-/// of their own.
+/// Expects that every case of the page occurred, except the rims of the first and last slab and ellipses, which need
+/// special scenes.
 void expect_all_met(const OracleFigures& figures);
 
 }  // namespace fastsplat::driver

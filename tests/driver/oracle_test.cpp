@@ -44,7 +44,7 @@ scene::Scene row_of(int voxels, const scene::SceneDescription& description, glm:
                      volume_of({voxels, 1, 1}, spacing, std::vector<float>(static_cast<std::size_t>(voxels), 1.0F)));
 }
 
-// N-8-66: the first and last slab begin and end with the volume. A kernel whose rounded ends stick out of them loses
+// N-8-66: the first and last slab begin and end with the volume. A kernel whose rounded ends reach beyond them loses
 // nothing.
 TEST(DriverOracle, RimsAtBothEndsOfTheSlabs) {
   OracleFigures figures;
@@ -86,7 +86,7 @@ TEST(DriverOracle, EveryStepOfTheSliceTable) {
   EXPECT_EQ(figures.met.odd_steps, config_names().size());
 }
 
-/// Both sides of the number at which `is` changes within low..high: they are neighbours.
+/// Both sides of the number at which `is` changes within low..high: neighbouring doubles.
 template <typename Is>
 std::pair<double, double> change(double low, double high, const Is& is) {
   const bool at_low = is(low);
@@ -154,8 +154,8 @@ TEST(DriverOracle, EverySampleIsOfOneSheetInItsOrder) {
   print_and_expect_equal(figures);
 }
 
-// N-8-59, N-8-60: a flat kernel in coarse sheets shows words longer than they are: what is owed is taken from the
-// splats behind.
+// N-8-59, N-8-60: a flat kernel in coarse sheets shows words longer than they are: the surplus is taken from the splats
+// behind.
 TEST(DriverOracle, SurplusEnergyIsCarried) {
   OracleFigures figures;
   for (const auto& name : config_names()) {
@@ -197,7 +197,7 @@ TEST(DriverOracle, TheSameRadiusIsTheFirstRefused) {
   EXPECT_EQ(figures.refused, config_names().size());
 }
 
-// N-8-27: radii within 10^-9 of each other are one set: the turn of a row, in perspective, at which they no longer are.
+// N-8-27: radii within 10^-9 of each other are one set: the turn of a row, in perspective, at which they become two.
 TEST(DriverOracle, TheSameRatioOfRadiiIsTheFirstWithSeveralSets) {
   OracleFigures figures;
   const std::vector<std::string> names = {"base", "year2000"};
@@ -265,7 +265,7 @@ TEST(DriverOracle, TheEndsOfTheFormatsAreTheirLargestWords) {
   EXPECT_GT(compared, 50);
 }
 
-// N-8-72: what render and record_stream make of a frame's beats: the whole stream, its end and its checksum.
+// N-8-72: the stream that render and record_stream make from a frame's beats, with its end and checksum.
 TEST(DriverOracle, ARecordedStreamIsTheWholePage) {
   std::uint64_t compared = 0;
   for (const auto& name : config_names()) {

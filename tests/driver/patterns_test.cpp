@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solid textures and bumps on the device: the table against the pattern, pictures against golden's, what changes no
-// bit, what is refused.
+// Solid textures and bumps on the device: the table against the pattern, pictures against golden's, patterns without
+// effect, refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ namespace {
 
 using scene::SceneDescription, scene::SolidKind, scene::TextureWhere;
 
-/// Something lit of a smooth volume, 24 voxels wide, classified by pixel.
+/// A lit smooth volume, 24 voxels wide, classified by pixel.
 SceneDescription post_view(int size = 64) {
   auto description = view_of("marschner-lobb:24", size, "ct-head");
   description.classify = scene::ClassifyOrder::Post;
@@ -58,7 +58,7 @@ cmodel::PatternUnit loaded(const cmodel::Config& config, const scene::Scene& sce
   return unit;
 }
 
-/// Frames and how far they are apart, the golden one being neither dark nor that without the pattern.
+/// Frames and their distance; the golden one is neither dark nor equal to that without the pattern.
 Lsb8 measure(const SceneDescription& description, const cmodel::Config& config, const std::string& what) {
   const auto scene = scene::build_scene(description);
   const Image reference = golden::render(scene);
@@ -72,9 +72,9 @@ Lsb8 measure(const SceneDescription& description, const cmodel::Config& config, 
 }
 
 // N-8-101, N-8-103: stripes of period L across nodes h apart lie within h^2 |f''| / 12 <= (2 pi h / L)^2 / 24 of the
-// lines, h along the stripes' way, which three axes share; and the second differences that level the nodes are not
-// quite the second derivatives, 1/12 (2 pi h / L)^2 of them.
-// N-8-96, N-8-97: the tables of densities follow those of the radius sets, those of patterns all others.
+// lines, h along the stripes' direction, which three axes share. The second differences that level the nodes differ
+// from the second derivatives by 1/12 (2 pi h / L)^2 of them. N-8-96, N-8-97: the tables of densities follow those of
+// the radius sets, those of patterns all others.
 TEST(PatternTables, ComeInTheirOrder) {
   for (const bool lit : {false, true}) {
     const auto view = post_view();
@@ -86,7 +86,7 @@ TEST(PatternTables, ComeInTheirOrder) {
     for (std::size_t at = 0; at < beats.size(); at += 1 + cmodel::announced_beats(beats[at])) {
       if (static_cast<cmodel::Opcode>(get(beats[at], cmodel::layout::kOpcode)) != cmodel::Opcode::LoadTable) continue;
       const std::int64_t table = get(beats[at], cmodel::layout::kTableId);
-      if (order.empty() || table != 0 || order.back() != 0) order.push_back(table);  // a set after a set counts once
+      if (order.empty() || table != 0 || order.back() != 0) order.push_back(table);  // consecutive sets count once
     }
     std::vector<std::int64_t> expected{1, 2, 0, 3, 4, 5, 6, 7};
     if (lit) expected.insert(expected.end(), {8, 9});
@@ -111,7 +111,7 @@ TEST(PatternTables, StripesAreAsNearAsTheirNodesAllow) {
       int compared = 0;
       const auto far = [&](std::size_t axis) { return words[axis] + last / std::ldexp(words[3 + axis], -24); };
       const auto node = [&](std::size_t axis) { return 1.0 / std::ldexp(words[3 + axis], -24); };
-      // A node within from every side, where nodes are levelled.
+      // Distance of a node from every side, beyond which nodes are levelled.
       for (double z = words[2] + node(2); z <= far(2) - node(2); z += 1.0)
         for (double y = words[1] + node(1); y <= far(1) - node(1); y += 3.0)
           for (double x = words[0] + node(0); x <= far(0) - node(0); x += 3.0, ++compared) {
@@ -140,8 +140,8 @@ TEST(PatternTables, StripesAreAsNearAsTheirNodesAllow) {
   }
 }
 
-// N-8-98, N-8-99, N-8-100: all that is seen lies between the nodes, and little else: a kernel's radius to each side,
-// and a tenth of the values.
+// N-8-98, N-8-99, N-8-100: the nodes enclose all that is visible, and little else: a kernel's radius to each side, and
+// a tenth of the values.
 TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
   for (const auto order : {scene::ClassifyOrder::Post, scene::ClassifyOrder::Pre}) {
     for (const bool perspective : {false, true}) {
@@ -176,8 +176,8 @@ TEST(PatternTables, NodesLieWhereSomethingIsSeen) {
   }
 }
 
-// N-8-98, N-8-99: a haze that is not seen fills the volume, and in its middle is a cube that is: nodes lie about the
-// cube. A column more on each side is what a place is rounded outwards.
+// N-8-98, N-8-99: an invisible haze fills the volume, with a visible cube in its middle: nodes lie around the cube.
+// Each side has one more column, because places are rounded outwards.
 TEST(PatternTables, NodesLieAroundTheVisibleInAHaze) {
   auto description = with_texture(post_view(100), SolidKind::Marble, 6.0);
   auto scene = scene::build_scene(description,
@@ -210,7 +210,7 @@ TEST(PatternTables, NodesLieAroundTheVisibleInAHaze) {
   }
 }
 
-// N-8-101 to N-8-104: nodes are levelled between others, and at an end there is no other: at the corners they are the
+// N-8-101 to N-8-104: nodes are levelled between others; at an end there is no other. At the corners they are the
 // pattern itself, at the place of the node (N-8-102).
 TEST(PatternTables, NodesAtTheCornersAreThePattern) {
   const auto description = with_texture(post_view(300), SolidKind::Stripes, 6.0);
@@ -232,7 +232,7 @@ TEST(PatternTables, NodesAtTheCornersAreThePattern) {
         const glm::dvec3 at = geometry.position(place(0, i), place(1, j), static_cast<int>(words[2]) + k);
         const double want = std::min(65536.0 * scene::solid_field(SolidKind::Stripes, at / 6.0), 65535.0);
         const double got = nodes[static_cast<std::size_t>(2 * ((k * 64 + j) * 64 + i))] & 0xFFFFU;
-        // The nearest word, of a place that is worked out in another order.
+        // The nearest word, for a place that was computed in another order.
         farthest = std::max(farthest, std::abs(got - want));
         bright += got > 32768.0 ? 1 : 0;
         ++compared;
@@ -246,7 +246,7 @@ TEST(PatternTables, NodesAtTheCornersAreThePattern) {
   EXPECT_LT(bright, compared - 2);
 }
 
-// As many nodes as pixels along the picture's sides: what is left are nodes between sheets, and words.
+// As many nodes as pixels along the picture's sides: the remaining errors are nodes between sheets, and words.
 TEST(PatternsOnDevice, TexturesAreWithin60DbOfGoldens) {
   EXPECT_GE(measure(with_texture(post_view(), SolidKind::Marble, 6.0), with_nodes("fine", 6), "marble").psnr_db, 60.0);
   EXPECT_GE(measure(with_texture(post_view(), SolidKind::Wood, 3.0), with_nodes("fine", 6), "wood").psnr_db, 60.0);
@@ -267,7 +267,7 @@ TEST(PatternsOnDevice, BumpsAreWithin60DbOfGoldens) {
   EXPECT_GE(measure(both, with_nodes("fine", 6), "marble, raised as wood").psnr_db, 60.0);
 }
 
-// N-8-105: colours, classified before they are splatted: sheets are tinted. The plain unit draws them, and says why.
+// N-8-105: colours, classified before splatting: sheets are tinted. The plain unit draws them, and reports why.
 TEST(PatternsOnDevice, SheetsOfColoursAreTinted) {
   auto description = with_texture(post_view(), SolidKind::Marble, 6.0);
   description.classify = scene::ClassifyOrder::Pre;
@@ -351,7 +351,7 @@ TEST(PatternsOnDevice, UnsupportedPatternsAreRefused) {
   EXPECT_THAT(refused(bumps, config), AllOf(StartsWith("bump.kind"), HasSubstr("set pattern.node_bits = 7")));
 }
 
-// Nothing of an empty picture is seen: its nodes are at places that exist.
+// An empty picture shows nothing: its nodes are at places that exist.
 TEST(PatternsOnDevice, NothingToBeSeenIsDrawn) {
   auto description = with_texture(post_view(24), SolidKind::Wood, 5.0);
   auto scene = scene::build_scene(description);

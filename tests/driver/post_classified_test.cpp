@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Classification by pixel on the device: against golden's, over methods of opacity, slabs, tiles and projections; its
-// normals; what is refused.
+// normals; refusals.
 #include "golden/post_classified.hpp"
 
 #include <gtest/gtest.h>
@@ -76,9 +76,9 @@ TEST(PostOnDevice, fine_is_within_57_db_of_golden) {
   }
 }
 
-// Pixels per unit change from sheet to sheet, and rays lean. Where radii differ much, what is left is the steps between
-// radius sets: a voxel of the next set has another width, and the gradient sees it. RLUT columns decide how many there
-// are, 8 in base and fine here, 32 of 512 columns.
+// Pixels per unit change from sheet to sheet, and rays lean. If radii differ much, the steps between radius sets
+// dominate: a voxel of the next set has another width, and the gradient shows it. RLUT columns decide how many sets
+// exist: 8 in base and fine here, 32 with 512 columns.
 TEST(PostOnDevice, perspective_is_within_50_db_of_golden_where_radius_sets_are_many) {
   auto description = post_view("marschner-lobb:24", 64, "ct-head");
   description.camera.projection = scene::Projection::Perspective;
@@ -92,7 +92,7 @@ TEST(PostOnDevice, perspective_is_within_50_db_of_golden_where_radius_sets_are_m
   EXPECT_GT(many, few);
 }
 
-// Ellipses have each the radius of their own splat: no steps are left, and no table has to be longer.
+// Each ellipse has the radius of its own splat: no steps remain, and the table needs no more words.
 TEST(PostOnDevice, perspective_with_ellipses_is_within_50_db_of_golden) {
   auto description = post_view("marschner-lobb:24", 64, "ct-head");
   description.camera.projection = scene::Projection::Perspective;
@@ -157,7 +157,7 @@ class GoldenGradients final : public golden::SheetStage {
   mutable std::mutex mutex_;
 };
 
-/// The device's densities, from what each window left.
+/// The device's densities, from the output of each window.
 class Densities final : public cmodel::TapSink {
  public:
   Densities(const TileGrid& grid, int lanes, int sheets)
@@ -202,8 +202,8 @@ std::shared_ptr<const volume::Volume> ball() {
   return volume;
 }
 
-// A ball's normals at 3 pixels a voxel. What the device's words of g add is less than a thousandth of a degree
-// (g has 16 fraction bits and is a thirtieth at least); what densities' words are off is all of it.
+// A ball's normals at 3 pixels a voxel. The device's words of g add less than a thousandth of a degree (g has 16
+// fraction bits and is at least a thirtieth). The error of the densities' words is all of it.
 TEST(PostOnDevice, normals_are_within_1_2_degrees_of_goldens) {
   auto description = post_view("shells:20", 40, "ct-head");
   description.camera.zoom = 3.6;

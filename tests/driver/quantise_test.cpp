@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every site of the driver rounds and saturates as docs/numerics.md, section 8 says: positions (N-8-36), whole splats
-// (N-8-37), what is carried (N-8-59), PHI (N-8-64), boundaries and depths (N-8-65).
+// Every site of the driver rounds and saturates as docs/numerics.md, section 8 states: positions (N-8-36), whole splats
+// (N-8-37), the carry (N-8-59), PHI (N-8-64), boundaries and depths (N-8-65).
 #include "driver/tables/quantise.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(Quantise, halves_go_up_but_for_radius_radial_weights_and_what_is_carried) {
       for (int parts = 0; parts <= 4; ++parts, ++compared) {
         std::int64_t expected = parts < 2 ? 3 : 4;
         if (site == Site::Rho) expected = parts == 0 ? 3 : 4;
-        // Of a position finer than the phases the snap rounds what is cut off.
+        // For a position finer than the phases the snap rounds the rest.
         const bool snapped = site == Site::Position && config.grid_bits() < config.position_frac_bits;
         if (site == Site::Radial || site == Site::Carried || snapped) expected = parts < 4 ? 3 : 4;
         EXPECT_EQ(word_near_3(site, parts, config), expected)
@@ -54,7 +54,7 @@ TEST(Quantise, negative_halves_go_up) {
   }
 }
 
-// N-8-36: where the snap has bits to round, driver and snap together round a position once: no splat moves on average.
+// N-8-36: if the snap has bits to round, driver and snap together round a position once: no splat moves on average.
 TEST(Quantise, a_position_is_rounded_once_whatever_the_snap_leaves_of_it) {
   constexpr int kPositions = 200000;
   test::Random random(14);
@@ -84,7 +84,7 @@ TEST(Quantise, a_position_is_rounded_once_whatever_the_snap_leaves_of_it) {
   EXPECT_EQ(twice, 0U);
 }
 
-/// N-8-37, U 4.cf: the last word that fits is reached by rounding, the next one saturates and says so.
+/// N-8-37, U 4.cf: the last word that fits is reached by rounding, the next one saturates and is counted.
 TEST(Quantise, a_whole_splat_saturates_and_says_so) {
   for (const auto& name : config_names()) {
     const auto config = load_config(name);

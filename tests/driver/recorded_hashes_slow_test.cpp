@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A refactoring changes no word: streams, frames, counters and cycles of every configuration, method and view against
-// the hashes in recorded_hashes.txt. Who changes numbers on purpose copies the list this test writes and says why.
+// the hashes in recorded_hashes.txt. To change numbers on purpose, copy the list that this test writes and give the
+// reason.
 #include <gtest/gtest.h>
 
 #include <cstdio>

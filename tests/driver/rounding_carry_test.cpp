@@ -37,9 +37,8 @@ std::vector<std::uint32_t> words_of(const scene::Scene& scene, const cmodel::Con
   return render(scene, config, {.threads = threads, .progress = {}}).frame.words;
 }
 
-// N-8-59, N-8-60: a line's words as the sheets show them sum to what was asked, but for what is left at its end: less
-// than a word and what one word is shown too short or too long. The flat kernel in coarse sheets shows more than it was
-// asked.
+// N-8-59, N-8-60: a line's words as the sheets show them sum to its exact value, except for the rest at its end: less
+// than a word, plus the error of one word. The flat kernel in coarse sheets shows more than its value.
 TEST(RoundingCarry, ALineShowsItsEnergy) {
   int lines = 0;
   double worst = 0.0, most_over = 0.0, most_under = 0.0;
@@ -111,7 +110,7 @@ TEST(RoundingCarry, DoesNotDependOnThreads) {
   figure("frames compared", compared);
 }
 
-// The report says what vanished by what it had; carried, nothing is lost.
+// The report counts vanished splats by their energy; with the carry, nothing is lost.
 TEST(RoundingCarry, TheReportCountsVanishedSplats) {
   auto description = view_by(Method::XRay, "marschner-lobb:32");
   description.xray_exposure = 0.05;
@@ -137,8 +136,8 @@ TEST(RoundingCarry, TheReportCountsVanishedSplats) {
   EXPECT_LT(kept.vanished_voxels, lost.vanished_voxels);
 }
 
-// N-8-58, N-8-61: what a splat leaves goes to its neighbour only. Alone it is rounded half up; two are nearer together
-// than each by itself: the mean squared error of a pair is 1/12 for 1/6.
+// N-8-58, N-8-61: a splat's remainder goes to its neighbour only. Alone it is rounded half up. Two together are nearer
+// than each alone: the mean squared error of a pair is 1/12 instead of 1/6.
 TEST(RoundingCarry, ReachesNeighboursOnly) {
   const auto config = load_config("exact");
   const ShownWords shown(config, scene::kernel_by_name("gauss2"));

@@ -17,7 +17,7 @@ namespace fastsplat::driver {
 /// A square orthographic view of a built-in volume with the papers' kernel.
 scene::SceneDescription view_of(const std::string& volume, int size, const std::string& transfer_function = "default");
 
-/// The scan of a head of Debian's mricron-data; null, and why, where it is not installed.
+/// The head scan of Debian's mricron-data; null, with the reason, if it is not installed.
 std::shared_ptr<const volume::Volume> head_scan(std::string& why_not);
 
 struct WordDifference {
@@ -35,7 +35,7 @@ struct Lsb8 {
 };
 Lsb8 distance(const Image& a, const Image& b);
 
-/// The device's words of the scene equal its words in smaller tiles.
+/// The device's words of the scene are equal in smaller tiles.
 void expect_tiles_never_show(const scene::SceneDescription& description, cmodel::Config config);
 
 /// Prints "[figure] name = value unit" and records it with the test.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every setting with every method and every engine: what is accepted shows in the picture, all else is refused. Each is
-// given at its probe; what it needs besides is turned on by doing what its refusals say.
+// Every setting with every method and every engine: accepted settings show in the picture, all others are refused. Each
+// is given at its probe value; further settings that it needs are turned on by following the refusals' fixes.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -20,7 +20,7 @@ using scene::Followed;
 using scene::SceneDescription;
 using scene::Setting;
 
-/// A picture as it is shown, and what it took.
+/// A picture as displayed, and its cost.
 struct Made {
   Image image;
   std::vector<std::uint64_t> work;
@@ -61,8 +61,8 @@ class CModel : public Engine {
   cmodel::Config config_;
 };
 
-/// Small, oblique, in front of the eye whatever is turned on, opaque enough to hide something, and with a test of
-/// culling, should it come to that, that sees the difference in so small a picture.
+/// Small, oblique, in front of the eye with any setting, opaque enough to hide something, and with a culling test that
+/// shows a difference in such a small picture.
 SceneDescription plain_scene(const std::string& method) {
   SceneDescription d;
   d.volume = "shells:10";
@@ -73,13 +73,13 @@ SceneDescription plain_scene(const std::string& method) {
   return d;
 }
 
-/// How often what came out.
+/// Counts of the outcomes.
 struct Tally {
   int changed = 0, same_by_design = 0, refused = 0, idle = 0;
   std::set<const Setting*> shown;
 };
 
-/// What is refused because it means nothing would indeed have changed nothing.
+/// A setting refused as without effect would indeed have changed nothing.
 void check_idle(const Setting& setting, const SceneDescription& start, const Engine& engine,
                 const std::shared_ptr<const volume::Volume>& volume, Tally& tally) {
   SceneDescription alone = start;

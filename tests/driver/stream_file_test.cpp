@@ -38,7 +38,7 @@ void write_beats(const std::filesystem::path& path, std::vector<cmodel::Beat> be
             static_cast<std::streamsize>(beats.size() * cmodel::kBeatBytes));
 }
 
-/// Number of the first beat behind begin_frame and the tables.
+/// Number of the first beat after begin_frame and the tables.
 std::size_t first_tile(const std::vector<cmodel::Beat>& beats) {
   std::size_t at = 1;
   while (get(beats[at], cmodel::layout::kOpcode) == static_cast<std::int64_t>(cmodel::Opcode::LoadTable))
@@ -46,7 +46,7 @@ std::size_t first_tile(const std::vector<cmodel::Beat>& beats) {
   return at;
 }
 
-/// What a UserError says; empty for none.
+/// The message of a UserError; empty if none.
 std::string refusal(const std::function<void()>& action) {
   try {
     action();
@@ -58,7 +58,7 @@ std::string refusal(const std::function<void()>& action) {
 
 class StreamFile : public ::testing::Test {
  protected:
-  // Of this process: tests run beside each other.
+  // Named after this process: tests run in parallel.
   std::filesystem::path path_ =
       std::filesystem::path(::testing::TempDir()) / ("fastsplat_stream_file_" + std::to_string(::getpid()) + ".fss");
   void TearDown() override { std::filesystem::remove(path_); }
@@ -108,7 +108,7 @@ TEST_F(StreamFile, a_hole_in_the_image_is_refused) {
     EXPECT_EQ(error.code(), ExitCode::Input);
     EXPECT_NE(std::string(error.what()).find("do not cover the image"), std::string::npos) << error.what();
   }
-  // Every reader has the rule, and tells where: at the end, the last beat.
+  // Every reader has the rule and gives the place: at the end, the last beat.
   const auto end = "beat " + std::to_string(beats.size()) + " (byte offset " +
                    std::to_string(beats.size() * cmodel::kBeatBytes) + "): tiles do not cover the image";
   cmodel::CycleModel cycles(config, cmodel::StreamScope::Whole, {});
@@ -149,8 +149,8 @@ TEST_F(StreamFile, the_last_of_overlapping_tiles_wins) {
   EXPECT_EQ(picture({Sum, Exponential}), exponential);
 }
 
-// A file of version 1: 24 bytes a beat, so that whatever follows begin_frame lies elsewhere. It is refused by name, by
-// all (S-frame-2).
+// A file of version 1: 24 bytes a beat, so all after begin_frame is elsewhere. It is refused by name, by all readers
+// (S-frame-2).
 TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
@@ -182,7 +182,7 @@ TEST_F(StreamFile, a_file_of_the_version_before_is_refused_by_name) {
   EXPECT_EQ(readers, 4);
 }
 
-// Cut at any byte: refused at the beat that is missing or not whole, by every reader of the file (S-reader-2).
+// Cut at any byte: refused at the missing or incomplete beat, by every reader of the file (S-reader-2).
 TEST_F(StreamFile, a_short_file_is_refused_at_the_missing_beat) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);
@@ -236,11 +236,11 @@ TEST_F(StreamFile, a_dump_names_the_wrong_end) {
   wrong = whole;
   wrong.push_back(whole.back());
   EXPECT_THAT(dumped(wrong), ::testing::HasSubstr("nothing after end_frame"));
-  // A reader that has enough asks for no more.
+  // A reader with its number of beats stops reading.
   EXPECT_EQ(refusal([&] { dump_stream(path_, [](const std::string&) { return false; }); }), "");
 }
 
-// The first beat in words: all that docs/stream.md has in it.
+// The first beat in words: all of its fields in docs/stream.md.
 TEST_F(StreamFile, a_dump_prints_the_header_of_the_stream) {
   const auto config = load_config("tiny");
   auto description = view_of("shells:8", 40);
@@ -256,7 +256,7 @@ TEST_F(StreamFile, a_dump_prints_the_header_of_the_stream) {
                        " width=40 height=24 tiles=2");
 }
 
-// Of a short stream nothing is written before the file is closed: what fails then is told, too, and the old file stays.
+// A short stream is written when the file is closed: an error at that time is reported too, and the old file stays.
 TEST_F(StreamFile, a_disk_that_fills_up_at_the_end_is_reported) {
   const std::vector<cmodel::Beat> beats(10);  // 320 bytes
   driver::write_beats(path_, std::span(beats).first(1));
@@ -285,8 +285,8 @@ TEST_F(StreamFile, what_no_replay_takes_is_not_recorded) {
   EXPECT_NO_THROW(check_image_size(8192, 8192));
 }
 
-// S-file-4: a replay refuses the header. Readers without an image (`cycles`, `verify`, `dump`) miss nothing but the
-// pixels that no tile covers (S-file-1).
+// S-file-4: a replay refuses the header. Readers without an image (`cycles`, `verify`, `dump`) miss only the pixels
+// that no tile covers (S-file-1).
 TEST_F(StreamFile, only_a_replay_refuses_an_image_for_its_size) {
   const auto config = load_config("tiny");
   record_stream(scene::build_scene(view_of("shells:8", 24)), config, path_);

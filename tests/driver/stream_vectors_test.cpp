@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixel beats of a stream's vectors are the replayed picture, tile by tile, also where the image cuts tiles and
-// where a tile's last beat of a row is not full. (Beats, taps and checksums, tests/capi/vectors_slow_test.cpp.)
+// The pixel beats of a stream's vectors are the replayed picture, tile by tile, also if the image cuts tiles and if a
+// tile's last beat of a row is not full. (Beats, taps and checksums: tests/capi/vectors_slow_test.cpp.)
 #include "driver/files/stream_vectors.hpp"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST_F(StreamVectors, PixelBeatsAreTheReplayedPicture) {
   }
 }
 
-// As every other result: what the folder lies in has to be there, and a run that fails leaves no folder of its own.
+// As with every other result: the parent folder must exist, and a failed run leaves no folder.
 TEST_F(StreamVectors, AFolderIsMadeInOneThatIsThere) {
   const auto config = load_config("tiny");
   const auto stream = folder_ / "scene.fss";

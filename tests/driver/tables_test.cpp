@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables the driver loads: preserved sums, exact squares, rims where the support ends.
+// The tables that the driver loads: preserved sums, exact squares, rims at the end of the support.
 #include "driver/tables/tables.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST(FactorTable, interpolation_error_is_within_the_second_derivative_bound) {
   }
 }
 
-// N-8-92: two materials, red and blue, with nothing between them, before and behind: 129..179 of 512 and 333..383.
+// N-8-92: two materials, red and blue, with a gap between them and at both ends: 129..179 of 512 and 333..383.
 TEST(ClassifyTable, clear_entries_have_the_colour_of_the_nearest_that_is_seen) {
   auto description = view_of("shells:8", 16);
   description.classify = scene::ClassifyOrder::Post;
@@ -116,7 +116,7 @@ TEST(ClassifyTable, clear_entries_have_the_colour_of_the_nearest_that_is_seen) {
     const bool first = i > 128 && i<180, second = i> 332 && i < 384;
     seen += words[4 * i + 3] != 0 ? 1 : 0;
     EXPECT_EQ(words[4 * i + 3] != 0, first || second) << i;
-    // As far from 179 as from 333 is 256: of two the higher one only where it is nearer.
+    // 256 is as far from 179 as from 333: the higher of two is taken only if it is nearer.
     const bool is_red = i <= 256;
     wrong += words[4 * i] != (is_red ? kOne : 0) || words[4 * i + 1] != 0 || words[4 * i + 2] != (is_red ? 0 : kOne);
   }

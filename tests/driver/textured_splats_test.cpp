@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textured splats on the device: pictures in the footprints of blit2d's sets, against golden's; what is refused.
+// Textured splats on the device: pictures in the footprints of blit2d's sets, against golden's; refusals.
 #include "scene/textured_splats.hpp"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ cmodel::Config with_pictures(int phases = 8) {
   return config;
 }
 
-// N-4.4-7: the words. A centre lies up to 1/(2k) pixel off: half as far, 6 dB more, until something else rules.
+// N-4.4-7: the words. A centre is up to 1/(2k) pixel off: half as far, 6 dB more, until another error dominates.
 TEST(TexturedOnDevice, TheMorePlacesTheNearerToGolden) {
   for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned, scene::Method::XRay}) {
     const auto scene = scene::build_scene(flame(method));
@@ -78,8 +78,8 @@ TEST(TexturedOnDevice, PerspectiveHasPicturesOfSeveralRadii) {
   EXPECT_GE(apart.psnr_db, 50.0);
 }
 
-// N-4.4-7, N-8-29: a set for each picture of a radius. Sets in their order: all radii of the first picture, then those
-// of the next; a radius is nearest to its own.
+// N-4.4-7, N-8-29: a set for each picture of a radius. Order of the sets: all radii of the first picture, then those of
+// the next; a radius is nearest to its own.
 TEST(TexturedOnDevice, ASetIsAPictureOfARadius) {
   auto config = with_pictures();
   config.rlut_sets = 50;
@@ -95,9 +95,8 @@ TEST(TexturedOnDevice, ASetIsAPictureOfARadius) {
   }
 }
 
-// N-4.4-7.
-// The pictures of a cycle cancel out: at each place the sum of N words is N times the plain word, to half a word of
-// rounding for each of them and for each plain one.
+// N-4.4-7. The pictures of a cycle cancel out: at each place the sum of N words is N times the plain word, up to half a
+// word of rounding for each of them and for each plain one.
 TEST(TexturedOnDevice, PicturesOfACycleCancelInTheTables) {
   const scene::Kernel kernel(2.0, 2.0);
   const scene::TexturedSplats textures({.phases = kPhases, .amplitude = 1.0, .frame = 0, .scale = 0.4}, kernel);
@@ -171,7 +170,7 @@ TEST(TexturedOnDevice, UnitsAndThreadsNeverShow) {
   }
 }
 
-// N-8-29: no detail is plain splats, word for word, and N pictures on another frame are another picture.
+// N-8-29: without detail the splats are plain, word for word; N pictures on another frame are another picture.
 TEST(TexturedOnDevice, AmplitudeZeroIsOffAndFramesDiffer) {
   auto description = flame(scene::Method::ImageAligned);
   const auto config = with_pictures();

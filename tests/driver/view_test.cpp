@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen: the crop, the fit to what is not empty, the background and the negative, by both engines.
+// The visible part: crop, fit to the content, background and negative, in both engines.
 #include <cmath>
 
 #include "base/error.hpp"
@@ -71,7 +71,7 @@ TEST(View, FitContentFillsThePictureWithTheContent) {
         EXPECT_LE(std::abs(edges.above - edges.below), 3);
         ++checked;
       }
-      // A ray goes where points are projected to, off the axis too.
+      // A ray meets the points that are projected to its pixel, off the axis too.
       const auto at = scene.camera.project({3.0, -5.0, 7.0});
       const scene::Ray ray = scene.camera.ray(at.x, at.y);
       EXPECT_NEAR(glm::distance(ray.origin + ray.direction * (at.depth / ray.depth_per_mm), {3.0, -5.0, 7.0}), 0.0,
@@ -132,7 +132,7 @@ TEST(View, BackgroundAndNegativeAreForLooking) {
   x.display.invert = true;
   for (const Image& ray : {golden_picture(scene::build_scene(x)), device_picture(scene::build_scene(x))}) {
     const Image film = scene::displayed(ray, x);
-    EXPECT_EQ(film.pixel(0, 0)[0], 1.0f);  // nothing there: bright
+    EXPECT_EQ(film.pixel(0, 0)[0], 1.0f);  // an empty part: bright
     int wrong = 0;
     const auto srgb = [](double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
     for (std::size_t at = 0; at < film.data.size(); ++at)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the fast unit was asked for and could not draw, the report says why; else it says nothing.
+// If the fast unit was requested and could not draw, the report gives the reason; else it gives none.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace fastsplat::driver {
 namespace {
 
-/// "" for nothing.
+/// "" for none.
 std::string why_plain(const cmodel::Config& config, Unit unit = Unit::Fast) {
   const auto scene = scene::build_scene(view_of("shells:12", 24));
   const auto units = render(scene, config, {.threads = 1, .unit = unit, .progress = {}}).units;

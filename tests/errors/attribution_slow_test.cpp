@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shares that add up, and the answers that are known beforehand.
+// Shares that add up, and cases with known answers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ scene::SceneDescription view_of(const std::string& volume, int size) {
   return description;
 }
 
-/// A scan of a package that need not be installed.
+/// A scan of a package that may be missing.
 std::shared_ptr<const volume::Volume> scan(const std::string& name) {
   try {
     return std::make_shared<const volume::Volume>(volume::load_volume(name));
@@ -88,7 +88,7 @@ TEST(Attribution, AddsUpToTheErrorAtEveryPixel) {
   std::printf(
       "[figure] %d scenes: shares off 1 by at most %.2g, groups by %.2g, a pixel's parts off its error by %.2g\n",
       scenes, worst_sum, worst_groups, worst_pixel);
-  // Some hundred thousand products of doubles are summed, of which the largest are of the sum's own size.
+  // Hundreds of thousands of products of doubles are summed; the largest are of the sum's own size.
   EXPECT_LT(worst_sum, 1e-9);
   EXPECT_LT(worst_groups, 1e-9);
   EXPECT_LT(worst_pixel, 1e-12);
@@ -192,7 +192,7 @@ TEST(Attribution, WhereNothingIsWrongItSaysSo) {
   scene::SceneDescription description = view_of("shells:8", 8);
   description.opacity_scale = 1e-6;
   const Attribution a = attributed(description, test::named_config("exact"));
-  // Too faint for any word: the device shows nothing, golden nearly nothing.
+  // Too faint for any word: the device shows nothing, golden almost nothing.
   const std::string text = to_text(a, std::nullopt, 8);
   std::printf("[figure] faint shells: RMS %.3g LSB8\n", a.total.rms * lsb_per_unit(8));
   EXPECT_LT(a.total.rms * lsb_per_unit(8), 1e-3);

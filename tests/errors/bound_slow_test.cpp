@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proved worst case: no pixel of any picture errs by more, and no step alone does.
+// The proved worst case: no pixel of any picture has a larger error, and no single step does.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ TEST(Bound, HoldsOnEveryPixelOfNamedConfigurations) {
       hold(scene::build_scene(description), test::named_config(name), totals);
   }
   totals.print("named configurations");
-  EXPECT_GT(totals.worst, 0.5);  // it is a worst case, not a mile above
+  EXPECT_GT(totals.worst, 0.5);  // a worst case that is not far above
 }
 
 TEST(Bound, HoldsOnEveryPixelAtRandom) {
@@ -105,7 +105,7 @@ TEST(Bound, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
   totals.print("other kinds of index");
 }
 
-/// What the page says of each step, where it can stand alone: one step's (or two that go together) device, all others
+/// The page's bound of each step, if it can stand alone: this step (or two that go together) on the device, all others
 /// real.
 TEST(Bound, HoldsForEachStepAlone) {
   const std::vector<std::vector<Step>> alone{{Step::Position, Step::Snap},
@@ -137,8 +137,7 @@ TEST(Bound, HoldsForEachStepAlone) {
     for (cmodel::Config& config : configs) {
       config.rounding_carry = static_cast<int>(cmodel::Carry::Off);
       for (const auto& description : scenes) {
-        // Sums that are added need no rounding to be opacities where they have few enough bits: alone they are no
-        // words.
+        // Added sums need no rounding to become opacities if they have few enough bits: alone they are not words.
         if (steps.front() == Step::Slab && description.slab_opacity == scene::SlabOpacity::Additive) continue;
         try {
           const scene::Scene scene = scene::build_scene(description);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attribution of frames whose sheets are densities: parts that add up, steps that are each there, what mends one, and
-// what is refused.
+// Attribution of frames whose sheets are densities: parts that add up, steps that all occur, the fix of one, and
+// refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST(DensityErrors, PartsAddUpToTheErrorAtEveryPixel) {
   std::printf("[figure] %llu values: shares off 1 by at most %.2g, a pixel's parts off its error by %.2g\n",
               static_cast<unsigned long long>(values), worst_sum, worst_pixel);
   EXPECT_GT(values, 10000u);
-  // Sums of some thousand products of doubles, of which the largest are of the sum's own size.
+  // Thousands of products of doubles are summed; the largest are of the sum's own size.
   EXPECT_LT(worst_sum, 1e-9);
   EXPECT_LT(worst_pixel, 1e-12);
 }
@@ -79,10 +79,11 @@ TEST(DensityErrors, SixGroupsAddUp) {
 
 TEST(DensityErrors, EveryStepOfThePixelErrsAlone) {
   scene::Scene scene = scene::build_scene(stages::test::small_density_scenes().front());
-  scene.shading.gradient_floor = 0.1;  // such that many pixels are between it and twice that
+  scene.shading.gradient_floor = 0.1;  // chosen so that many pixels are between it and twice that
   const cmodel::Config config = with_densities("base");
   const Chain chain(scene, config);
-  // What golden's floats behind the gradient are off the others' doubles (tests/pipeline/density_steps_test.cpp).
+  // The difference of golden's floats after the gradient from the others' doubles
+  // (tests/pipeline/density_steps_test.cpp).
   const double floats = 1e-5 / lsb_per_unit(8);
   const Attribution a = attribute(chain, {.threads = 1});
   int steps = 0;

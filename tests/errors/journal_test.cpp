@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets, the figures they ask for, and the journal of a search.
+// Targets, their figures, and the journal of a search.
 #include "analysis/errors/journal.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST_F(JournalFile, KeepsItsValuesToTheLastBit) {
   std::printf("[figure] a journal of two entries = %zu bytes\n", before.size());
 }
 
-/// Killed at any byte: what was whole is kept, what is added then is whole.
+/// Killed at any byte: complete entries are kept, and later ones are complete.
 TEST_F(JournalFile, IsSoundAfterAnyCut) {
   {
     Journal journal(path_);

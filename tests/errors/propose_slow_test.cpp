@@ -29,12 +29,12 @@ scene::Scene shells(scene::Method method = scene::Method::ImageAligned) {
   return scene::build_scene(description);
 }
 
-/// By render and compare, not by the search's own eyes.
+/// By render and compare, independently of the search.
 double psnr(const scene::Scene& scene, const cmodel::Config& config) {
   return compare(golden::render(scene), driver::to_image(driver::render(scene, config).frame)).figures.psnr_db;
 }
 
-/// The least of the scenes, 0 where one cannot be drawn.
+/// The minimum over the scenes, 0 if one cannot be drawn.
 double least_psnr(const std::vector<scene::Scene>& scenes, const cmodel::Config& config) {
   double least = std::numeric_limits<double>::infinity();
   for (const scene::Scene& scene : scenes) {
@@ -47,8 +47,8 @@ double least_psnr(const std::vector<scene::Scene>& scenes, const cmodel::Config&
   return least;
 }
 
-/// Moves of one key down by one, or by one or two and another up by one, that are cheaper than `best`; every one is
-/// drawn.
+/// Moves that are cheaper than `best`: one key down by one, or one key down by one or two and another up by one. Every
+/// one is drawn.
 struct Moves {
   int tried = 0, that_do = 0;
 };
@@ -134,7 +134,7 @@ TEST_F(Propose, ItsJournalResumesWithoutSimulating) {
   EXPECT_GT(first.simulated, 0);
   EXPECT_EQ(again.simulated, 0);
   EXPECT_EQ(driver::to_toml(again.search.best), driver::to_toml(first.search.best));
-  // Interrupted halfway: what is missing is simulated, no more.
+  // Interrupted halfway: only the missing frames are simulated.
   std::ostringstream all;
   all << std::ifstream(path_, std::ios::binary).rdbuf();
   std::filesystem::resize_file(path_, all.str().size() / 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranges of whole frames: exact sums, the device's own counters, theory against every value there is, and formats that
+// Ranges of whole frames: exact sums, the device's own counters, theory against all values that occur, and formats that
 // then saturate nothing.
 #include "analysis/errors/ranges.hpp"
 
@@ -105,7 +105,7 @@ TEST(Ranges, OfAFrameSaturateAsOftenAsTheDeviceCounts) {
   configs.back().pixel_int_bits = 0;
   for (int n = 0; n < 6; ++n) configs.push_back(test::random_config(random));
   for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned, scene::Method::XRay}) {
-    // Thirty times as opaque: sums get cut.
+    // Thirty times as opaque: sums saturate.
     for (const double opacity : {1.0, 30.0}) {
       const scene::Scene scene = scene_of("shells:20", method, opacity);
       for (const cmodel::Config& config : configs) {
@@ -161,7 +161,7 @@ TEST(Ranges, ThreadsDoNotMatterAndScenesAdd) {
   EXPECT_EQ(both.at(Site::Light), one.ranges.at(Site::Light));
 }
 
-/// What saturates, made as wide as is told, does not; one bit less and it does.
+/// A saturating format, widened as reported, no longer saturates; with one bit less it does.
 TEST(Ranges, ReportedFormatsSaturateNothingAndAreNotTooWide) {
   int frames = 0;
   for (const char* name : {"tiny", "small", "base"}) {
@@ -193,8 +193,8 @@ TEST(Ranges, ReportedFormatsSaturateNothingAndAreNotTooWide) {
         --less.sheet_int_bits;
         EXPECT_GT(saturated(less), 0u) << name;
       }
-      // Where sheets were cut, a slab's factor with room spans another range and is another: output words may then
-      // differ by their last bit, and what they need is a bound.
+      // If sheets were cut, a slab's factor with room has another range and other words: output words may then differ
+      // by their last bit, and the reported need is a bound.
       const bool bound = method != scene::Method::XRay && narrow.counters.sheet_saturated > 0;
       if (widened.pixel_int_bits > 0 && !bound) {
         cmodel::Config less = widened;

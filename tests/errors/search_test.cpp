@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search on judges whose answers are formulas: what it ends with cannot be lowered, whatever the formula.
+// The search with formulas for verdicts: for any formula, its result cannot be lowered.
 #include "analysis/errors/search.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ double bits(const Config& config, std::size_t knob) {
   return cmodel::find_key(knobs()[knob].key)->power_of_two ? std::log2(value) : value;
 }
 
-/// Noises that add: weight_k 4^-bits_k, and what freezing leaves.
+/// Noises that add: weight_k 4^-bits_k, and the share of early termination.
 struct Noises {
   std::vector<double> weights;
   double freeze = 0.0, allowed = 1.0;
@@ -39,7 +39,7 @@ struct Noises {
 
 double price(const Config& config) { return cost(config).total(); }
 
-/// Not through the search's own eyes: every knob one step down, judged afresh.
+/// Independent of the search: every knob one step down, evaluated again.
 int lowerable(const Config& best, const Evaluate& evaluate) {
   int count = 0;
   for (std::size_t k = 0; k < freeze_knob(); ++k) {
@@ -101,11 +101,11 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
       met, most, dearest, pairs);
   EXPECT_GE(met, 20);
   EXPECT_GT(pairs, 1000);
-  // Halving 14 keys, rounds of 14, and pairs at the end: more than this and frames take too long.
+  // Halving 14 keys, rounds of 14, and pairs at the end: more frames than this take too long.
   EXPECT_LE(most, 500);
 }
 
-/// Where all noises are known, the best of all: few keys in play, every combination asked for.
+/// If all noises are known, the best of all: with few keys, every combination is evaluated.
 TEST(Search, IsNearTheBestOfAllWhereThatCanBeKnown) {
   const Config base = test::named_config("base");
   double worst = 0.0;
@@ -164,7 +164,7 @@ TEST(Search, TurnsFreezingOnlyWhereNothingElseHelps) {
   ASSERT_TRUE(kept.met);
   EXPECT_GE(std::ldexp(static_cast<double>(kept.best.freeze_below), -kept.best.composite_frac_bits), level);
   Noises ruled = harmless;
-  ruled.freeze = 4.0 * ruled.allowed * ruled.allowed / (level * level);  // freezing alone makes twice the error allowed
+  ruled.freeze = 4.0 * ruled.allowed * ruled.allowed / (level * level);  // freezing alone makes twice the allowed error
   const SearchOutcome finer = Search(base, ruled, price).run();
   ASSERT_TRUE(finer.met);
   EXPECT_LT(std::ldexp(static_cast<double>(finer.best.freeze_below), -finer.best.composite_frac_bits), level);

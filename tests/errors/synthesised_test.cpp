@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What synthesis made of a configuration is found by its hash, and is what docs/evidence/synthesis.json says.
+// Synthesis results of a configuration are found by its hash and equal docs/evidence/synthesis.json.
 #include "analysis/errors/synthesised.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# system.sh SYSTEM FASTSPLAT WORK_DIR: the example system renders a recorded stream as the model does, tells a refusal and goes on after
-# it, and refuses what it cannot do.
+# system.sh SYSTEM FASTSPLAT WORK_DIR: the example system renders a recorded stream as the model does, reports a refused
+# beat and continues after it, and refuses impossible requests.
 set -eu
 system=$1 fastsplat=$2 work=$3
 page=$(cd "$(dirname "$0")/../../docs" && pwd)/integration.md
@@ -30,7 +30,7 @@ cmp shells.png again.png || fail "another picture after the refusal"
 "$fastsplat" stream record --volume shells:16 --config tiny --size 32 -o tiny.fss >record.log 2>&1
 if "$system" tiny.fss tiny.png 2>error.log; then fail "took a stream of another configuration"; else [ $? -eq 3 ] || fail "another exit code than 3"; fi
 grep -q 'another configuration' error.log || { cat error.log; fail "no reason told"; }
-# Told before anything is simulated, and nothing lost.
+# Reported before the simulation starts; nothing is lost.
 cp shells.fss shells.copy
 refused() { # EXIT WORDS ARGS...
   expected=$1 words=$2 status=0

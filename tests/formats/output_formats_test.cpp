@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results as JUnit XML, CSV and Markdown: what they say is what the JSON says.
+// Results as JUnit XML, CSV and Markdown have the values of the JSON.
 #include "report/formats/output_formats.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-/// As RFC 4180 has it; strict.
+/// As in RFC 4180; strict.
 Lines csv_lines(const std::string& text) {
   Lines lines;
   std::vector<std::string> fields;
@@ -97,7 +97,7 @@ TEST(OutputFormats, JunitHasTheReasonAndTheCommand) {
   EXPECT_TRUE(holds(compare, "message=\"min_psnr_db is 51.4384, required is at least 60\"")) << compare;
   EXPECT_TRUE(holds(compare, "&#10;reproduce: fastsplat compare a.exr 'b c.exr' --max-lsb 1</failure>")) << compare;
   const std::string verify = to_junit({kind("verify")});
-  // The first failing seed is what was made small; the others come again with the campaign.
+  // The first failing seed was shrunk; the others are reproduced by the campaign.
   EXPECT_TRUE(holds(verify, "name=\"tiny seed 8\"")) << verify;
   EXPECT_TRUE(
       holds(verify, "tap sheet &lt;lane 3&gt; &amp; more&#10;reproduce: fastsplat verify --stream verify-failure.fss"));
@@ -138,7 +138,7 @@ TEST(OutputFormats, JunitIsWhatBuildServersRead) {
             .c_str());
   };
   EXPECT_EQ(lint(), 0) << std::ifstream(file + ".log").rdbuf();
-  // It sees what is wrong.
+  // The check notices errors.
   std::string broken = to_junit(results);
   broken.replace(broken.find("classname="), 10, "klassname=");
   std::ofstream(file, std::ios::binary) << broken;
@@ -149,7 +149,7 @@ TEST(OutputFormats, JunitIsWhatBuildServersRead) {
 
 TEST(OutputFormats, AResultThatFailsWithoutAGateThatDoesFails) {
   Result result = kind("errors bound");
-  result.json["holds"] = false;  // and yet no value is over it
+  result.json["holds"] = false;  // but no value exceeds it
   const auto gates = gates_of(result);
   ASSERT_EQ(gates.size(), 2u);
   EXPECT_EQ(gates[1].status, Status::Fail);
@@ -187,7 +187,7 @@ TEST(OutputFormats, CsvIsTheRowsOfTheResult) {
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
         const Json& value = table.rows[r][c];
         const std::string& text = lines[r + 1][c];
-        // Not one bit of a number is lost.
+        // Numbers keep every bit.
         if (value.is_number()) {
           EXPECT_EQ(Json::parse(text), value);
         } else {
@@ -266,7 +266,7 @@ TEST(OutputFormats, MarkdownCutsLongTablesAndSaysSo) {
   EXPECT_EQ(count(to_junit({plan}), "<testcase "), 2003u);
 }
 
-// Whatever is taken from a result or put in its place, the faces are made or one line says what is wrong.
+// With any part of a result removed or replaced, the outputs are made or one line gives the error.
 TEST(OutputFormats, ADamagedResultIsOneLine) {
   int refused = 0, made = 0;
   const auto try_it = [&](const Result& result) {

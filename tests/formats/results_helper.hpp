@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results as subcommands write them, small, and of every kind.
+// Small results of every kind, as subcommands write them.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ namespace fastsplat::report {
 /// `text` is the result's JSON.
 Result result_from(const std::string& file, const std::string& text);
 
-/// One of every subcommand that is reported, in the order of their names: some pass, some fail.
+/// One result of every reported subcommand, ordered by name: some pass, some fail.
 std::vector<Result> all_kinds();
-/// `subcommand` among them.
+/// The one of `subcommand`.
 Result kind(const std::string& subcommand);
 
 }  // namespace fastsplat::report

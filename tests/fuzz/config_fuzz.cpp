@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configurations: refused, or understood and written so that they read back the same.
+// Configurations: refused, or parsed and written so that they read back unchanged.
 #include "driver/config/config_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the closure of coverage reads: books, tests' results, the plan, exclusions.
+// Inputs of coverage closure: books, tests' results, the plan, exclusions.
 #include "testbench/closure/closure.hpp"
 #include "testbench/closure/verification_plan.hpp"
 #include "testbench/coverage/coverage_book.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all fuzz targets share: the input as a file, and what may come of reading it.
+// Shared by all fuzz targets: the input as a file, and the permitted outcomes of reading it.
 #pragma once
 
 #include <unistd.h>
@@ -24,7 +24,7 @@ using Bytes = std::span<const std::uint8_t>;
   std::abort();
 }
 
-/// The first byte, taken off; 0 if there is none.
+/// Removes and returns the first byte; 0 if there is none.
 inline std::uint8_t take_byte(Bytes& bytes) {
   if (bytes.empty()) return 0;
   const std::uint8_t first = bytes.front();
@@ -32,7 +32,7 @@ inline std::uint8_t take_byte(Bytes& bytes) {
   return first;
 }
 
-/// The bytes as a file in a folder of this process's own; the same path as long as the ending is.
+/// Writes the bytes to a file in this process's own folder; the path is the same for the same ending.
 inline std::filesystem::path file_of(Bytes bytes, const std::string& ending) {
   static const std::filesystem::path folder = [] {
     auto path = std::filesystem::temp_directory_path() / ("fastsplat-fuzz-" + std::to_string(::getpid()));
@@ -49,8 +49,8 @@ inline std::filesystem::path file_of(Bytes bytes, const std::string& ending) {
   return path;
 }
 
-/// Runs `read`: it returns, or refuses in one line as input or usage. Any other exception, code or shape of the line is
-/// a finding, as is what the sanitizers see. True if it returned.
+/// Runs `read`: it returns, or refuses the input in one line as an input or usage error. Any other exception, code or
+/// form of the line is a finding, and so are the sanitizers' reports. True if it returned.
 template <class Read>
 bool answered(Read&& read) {
   try {

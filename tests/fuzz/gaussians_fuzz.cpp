@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of 3-D Gaussians: read, or refused; what was read is sound, and is the same once written and read again.
+// Files of 3-D Gaussians: read or refused; Gaussians that were read are valid and read back unchanged.
 #include "scene/gaussians/gaussian_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

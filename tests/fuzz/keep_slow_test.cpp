@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tools/fuzz --keep` keeps of a run, with scripts in the fuzzers' place: hours add up only where nothing was
-// found.
+// The results that `tools/fuzz --keep` keeps of a run, with scripts instead of fuzzers: hours add up only without
+// findings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,13 +38,13 @@ class Keep : public ::testing::Test {
     std::ofstream file(folder_ / "root/tests/fuzz/targets.def");
     for (const std::string& name : names) file << "FASTSPLAT_FUZZ_TARGET(" << name << ", \"seeds\", 1)\n";
   }
-  /// The fuzzer of a target does `what`.
+  /// The fuzzer of a target executes `what`.
   void fuzzer(const std::string& name, const std::string& what) {
     const fs::path path = folder_ / "build/bin" / ("fuzz_" + name);
     std::ofstream(path) << "#!/bin/sh\n" << what << '\n';
     fs::permissions(path, fs::perms::owner_all);
   }
-  /// What tools/helpers/fuzz_targets said, and its exit code.
+  /// Output of tools/helpers/fuzz_targets, and its exit code.
   std::pair<std::string, int> run(const std::string& arguments) {
     const fs::path said = folder_ / "said.txt";
     const std::string root = (folder_ / "root").string(), build = (folder_ / "build").string();
@@ -62,7 +62,7 @@ class Keep : public ::testing::Test {
   fs::path folder_;
 };
 
-/// What libFuzzer says at the end of a run that found nothing.
+/// libFuzzer's last line of a run without findings.
 std::string fine(int runs, int edges) {
   return "echo '#1 NEW cov: " + std::to_string(edges) + " ft: 9'; echo 'Done " + std::to_string(runs) +
          " runs in 1 second(s)'";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs for the targets without libFuzzer: seeds, and what a seeded chance makes of them.
+// Inputs for the targets without libFuzzer: seeds, and seeded random changes of them.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,9 @@ std::vector<Input> inputs_in(const std::filesystem::path& folder);
 /// limits, pieces left out, doubled, taken from another seed). At most 8192 bytes.
 Input mutated(const std::vector<Input>& seeds, std::uint64_t number);
 
-/// What readers of text recurse over or hold twice: long dotted keys and headers, deep arrays and tables of TOML and
-/// JSON, names and strings of a megabyte. Each stands behind every first byte by which targets choose a reader.
+/// Structures on which text readers recurse or which they hold twice: long dotted keys and headers, deep arrays and
+/// tables of TOML and JSON, names and strings of a megabyte. Each comes after every first byte by which targets choose
+/// a reader.
 std::vector<Input> hard_texts();
 
 }  // namespace fastsplat::fuzz

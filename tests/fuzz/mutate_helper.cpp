@@ -30,7 +30,7 @@ class Chance {
   std::uint64_t state_;
 };
 
-/// What breaks readers of text.
+/// Structures that break text readers.
 constexpr std::array<std::string_view, 16> kWords{"-1",  "0",    "4294967296", "1e999", "nan", "99999999999999999999",
                                                   "\"",  "[",    "]",          "{",     "}",   "\n",
                                                   "\\u", "\xff", "=",          "null"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans: a specification is understood or refused; a plan that was read is written so that it reads back the same.
+// Plans: a specification is accepted or refused; a plan that was read is written so that it reads back unchanged.
 #include <nlohmann/json.hpp>
 
 #include "analysis/sweep/plan.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene.toml and its [sequence]: understood, or refused.
+// scene.toml and its [sequence]: accepted or refused.
 #include "scene/scene.hpp"
 #include "scene/sequence.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fuzz targets without libFuzzer and sanitizers, in every test run: all their seeds, then some thousands of changed
-// ones, always the same. A finding ends the test with its input in a file; `tools/fuzz` looks longer and sees more.
+// The fuzz targets without libFuzzer and sanitizers, in every test run: all seeds, then thousands of changed ones,
+// always the same. A finding ends the test with its input in a file; `tools/fuzz` runs longer and finds more.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -50,7 +50,7 @@ void keep_input(int signal) {
   std::raise(signal);
 }
 
-/// Where targets put their input, while this process runs: they ask once.
+/// The targets' input file during this process: they request it once.
 class Scratch : public ::testing::Environment {
  public:
   Scratch() {
@@ -70,7 +70,7 @@ class Scratch : public ::testing::Environment {
 class Standing : public ::testing::TestWithParam<Target> {
  protected:
   void SetUp() override {
-    // What recurses over an input shows itself early.
+    // Readers that recurse over an input fail early.
     constexpr rlimit kStack{1 << 20, RLIM_INFINITY};
     ::setrlimit(RLIMIT_STACK, &kStack);
     kept = (fs::path(FASTSPLAT_BINARY_DIR) / ("finding-" + std::string(GetParam().name))).string();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device's stream: model and oracle refuse it at the same beat, or take it and draw the same. The first byte says
-// whether the stream gets the beat count and checksum that it should have, without which few would be taken.
+// The device's stream: model and oracle refuse it at the same beat, or accept it and draw the same. The first byte
+// decides whether the stream gets the right beat count and checksum; without them few would be accepted.
 #include "tests/cmodel/small_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
 #include "tests/cmodel/verdict_helper.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transfer functions of one's own: understood, or refused.
+// Transfer functions: accepted or refused.
 #include "scene/transfer_function.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes of every format: read, or refused; what was read has the voxels that it says.
+// Volumes of every format: read or refused; a volume that was read has as many voxels as it declares.
 #include "scene/volume/volume_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

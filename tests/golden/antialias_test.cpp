@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Anti-aliasing: what a checkerboard too fine for the pixels leaves behind, and what must not change at all.
+// Anti-aliasing: the residue of a checkerboard too fine for the pixels, and pixels that must not change.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,13 +41,13 @@ double from_eye(const scene::Scene& scene, const glm::dvec3& world) {
   return scene.camera.eye_distance() + glm::dot(world, scene.camera.direction());
 }
 
-/// Where the ray of a pixel meets the plane world[axis] = at; farther than anything when it does not.
+/// The point where a pixel's ray meets the plane world[axis] = at; infinitely far if it misses.
 glm::dvec3 hit(const scene::Ray& ray, const glm::dvec3& eye, int axis, double at) {
   const double t = (at - eye[axis]) / ray.direction[axis];
   return t > 0 ? eye + t * ray.direction : eye + 1e9 * ray.direction;
 }
 
-/// Pixels that see the boards past `nearest` crossovers, no square of their kernels missing.
+/// Pixels that see the boards past `nearest` crossovers, with every square of their kernels.
 std::vector<int> pixels_beyond(const scene::Scene& scene, bool tunnel, double nearest) {
   const double half = 0.5 * (scene.volume->dims.x - 1);
   const double k = crossover(scene);
@@ -78,7 +78,7 @@ double tone(const Image& image, int pixel) {
   return (static_cast<double>(rgba[0]) / rgba[3] - 0.05) / 0.95;
 }
 
-/// Variance of the tone. Past 2.6 k a square is 0.77 pixel: all that varies is alias. At most 1/4.
+/// Variance of the tone. Past 2.6 k a square is 0.77 pixel: all variation is alias. At most 1/4.
 double contrast_energy(const Image& image, const std::vector<int>& pixels) {
   double sum = 0, squares = 0;
   for (const int pixel : pixels) {
@@ -130,8 +130,8 @@ TEST(Antialias, TunnelAliasesFiftyTimesLess) {
   expect_fifty_times_less(checkerboard("checkerboard-tunnel:128", 0, 134), true, "tunnel");
 }
 
-// A pixel that only splats before the crossover reach keeps every bit; a splat of which a grown kernel reaches further
-// than before may not come in unnoticed, so the pixels are found from all footprints.
+// A pixel that only splats before the crossover reach keeps every bit. A grown kernel may reach further than before, so
+// these pixels are found from all footprints.
 void expect_near_pixels_kept(const scene::Scene& plain, Method method, const std::string& name) {
   const std::vector<scene::Splat> splats = scene::collect_splats(plain);
   const scene::Scene smooth = antialiased(plain);
@@ -170,7 +170,7 @@ TEST(Antialias, PixelsBeforeTheCrossoverKeepEveryBit) {
   expect_near_pixels_kept(checkerboard("checkerboard-tunnel:64", 0, 134), Method::ImageAligned, "tunnel");
 }
 
-// What a splat adds to the picture in all is what it was, to the sampling ripple of a kernel whose voxel is one pixel.
+// The total of a splat in the picture is unchanged, up to the sampling ripple of a kernel whose voxel is one pixel.
 TEST(Antialias, EnergyIsKept) {
   Lattice lattice;
   lattice.dims = glm::ivec3(12);

@@ -68,10 +68,10 @@ TEST(Convergence, OrderInTheSlabWidth) {
   }
 }
 
-// The limit of thin slabs is the ray caster's picture. Bound: both discretisations are of second order, so from the
-// error e measured at W=1 there remain e W^2 for the slabs and e step^2 for the rays (doubled for the higher orders);
-// the ray's samples of the kernel cut at R miss at most exp(-aR^2) step sqrt(a/pi) of a splat's optical depth, which
-// moves a pixel by at most twice that (splatting.md section 5 item 6); and both images are rounded to float.
+// The limit of thin slabs is the ray caster's picture. Both discretisations are of second order. From the error e at
+// W=1 there remain e W^2 for the slabs and e step^2 for the rays, doubled for the higher orders. The ray's samples of
+// the kernel cut at R miss at most exp(-aR^2) step sqrt(a/pi) of a splat's optical depth, which moves a pixel by at
+// most twice that (splatting.md section 5 item 6). Both images are rounded to float.
 void expect_agreement(Lattice lattice, const char* name) {
   const Image reference = ray_cast(make_scene(lattice), {});
   ASSERT_GT(max_opacity(reference), 0.5);

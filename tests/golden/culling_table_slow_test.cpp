@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lecture's table of early splat elimination, in its shape: time without and with, and the share of voxels that is
-// splatted. Processor time of one thread, so that a busy machine changes it little.
+// The lecture's table of early splat elimination: time without and with, and the share of voxels that is splatted.
+// Processor time of one thread, which other work on the machine changes little.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ struct Row {
   double gain() const { return without / with; }
 };
 
-/// Splatting alone, the voxels classified already. Drawn the plain way: the other leaves out what frozen pixels hide
-/// whether culling is on or not, and there would be no "without".
+/// Splatting only; the voxels are classified before. Drawn the plain way: the fast one omits splats behind frozen
+/// pixels with or without culling, so it has no "without".
 Image splat(const scene::Scene& scene, const std::vector<scene::Splat>& splats, CullingMode mode, double& seconds,
             CullingReport& culling) {
   scene::Scene as = scene;
@@ -92,7 +92,7 @@ TEST(CullingTable, InTheLecturesShape) {
     EXPECT_GT(row->report.share_splatted(), head.report.share_splatted()) << "the opaque head culls most";
     EXPECT_LT(row->gain(), head.gain());
   }
-  // If time went as splats do, the gain would be 1 / share; the tests and all that is not splatting bound it.
+  // If time were proportional to splats, the gain would be 1 / share; the tests and other work bound it.
   figure("head_gain_if_time_went_as_splats", 1.0 / head.report.share_splatted(), "more than the gain");
   EXPECT_LT(head.gain(), 1.0 / head.report.share_splatted());
 }

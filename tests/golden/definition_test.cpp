@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every splatting technique against its definition (docs/golden.md, docs/techniques/), written out a second time
-// without bands, rings, spans or buckets, with the kernel's closed forms instead of scene::Kernel, a measured
-// derivative of the projection instead of a derived one, cameras that really turn, and a lens with a focal length.
+// Every splatting technique against its definition (docs/golden.md, docs/techniques/), written a second time: without
+// bands, rings, spans or buckets, with the kernel's closed forms instead of scene::Kernel, a measured derivative of the
+// projection instead of a derived one, cameras that turn, and a lens with a focal length.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ class Definition {
     double depth = 0.0, growth = 1.0, energy_kept = 1.0;
   };
 
-  /// N-8-40; N-8-41: motion; N-8-42: the energy that is kept.
+  /// N-8-40; N-8-41: motion; N-8-42: the preserved energy.
   Placed place(const scene::Splat& splat) const {
     const scene::SceneDescription& techniques = scene_.description;
     const glm::dvec3 world(splat.position);
@@ -198,8 +198,8 @@ class Definition {
   double unit_ = 1.0, amplitude_ = 0.0;
 };
 
-// Both sides round a double to float once, and their doubles differ by far less than a float's last place: at most the
-// two round differently, one unit in the last place, relative to the largest value.
+// Both sides round a double to float once, and their doubles differ by far less than a float's last place. At most the
+// two round differently, by one unit in the last place, relative to the largest value.
 void expect_as_defined(const scene::Scene& scene, Method method, const std::string& name) {
   const std::vector<scene::Splat> splats = random_splats(scene, 60, 3.0, 7);
   const Image expected = Definition(scene, splats).render(method);
@@ -270,7 +270,8 @@ TEST(Definition, Perspective) {
   expect_as_defined(lattice, Method::Westover, "westover_perspective_vs_definition");
 }
 
-// What shapes footprints, one by one and together. Voxels are seen at 0.8 to 1.6 pixels, so that some kernels grow.
+// Techniques that shape footprints, one by one and together. Voxels are seen at 0.8 to 1.6 pixels, so that some kernels
+// grow.
 Lattice minified() {
   Lattice lattice = cropped();
   lattice.projection = scene::Projection::Perspective;

@@ -154,7 +154,7 @@ TEST(DemoScenes, TheTunnelsFarEndAliases) {
   EXPECT_GT(near, 1.0);
   EXPECT_LT(far, 0.5);
 
-  // Alias: what the picture shows and the mean of a finer picture does not. Far: nearer the middle of the picture.
+  // Alias: the difference from the mean of a finer picture. Far: nearer the middle of the picture.
   const Image coarse = render(scene);
   const Image truth = averaged(picture(demo("tunnel", kFiner * kSize)), kFiner);
   const double mouth = far * half / (0.5 * kSize);  // the far end's place between middle and border of the picture

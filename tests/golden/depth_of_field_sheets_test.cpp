@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth of field on sheets: the disc's moments, energy, what is in focus, agreement with depth of field on splats.
+// Depth of field on sheets: the disc's moments, energy, pixels in focus, agreement with depth of field on splats.
 #include "golden/depth_of_field_sheets.hpp"
 
 #include <gtest/gtest.h>
@@ -113,8 +113,8 @@ TEST(DepthOfFieldSheets, InFocusNothingChanges) {
   EXPECT_NE(sharp, render(make_scene(what)));
 }
 
-// A faint point in one plane. Both ways spread it by the same second moment; a disc and a Gaussian differ from the
-// fourth on: by R^4 / (48 sigma^4) of the peak for a disc of radius R = c/2 on a footprint of deviation sigma.
+// A faint point in one plane. Both techniques spread it by the same second moment. A disc and a Gaussian differ from
+// the fourth on: by R^4 / (48 sigma^4) of the peak for a disc of radius R = c/2 on a footprint of deviation sigma.
 TEST(DepthOfFieldSheets, AgreesWithSplatsInOnePlane) {
   for (const double c : {2.0, 4.0, 8.0}) {
     DensityScene what = one_voxel(1e-4);

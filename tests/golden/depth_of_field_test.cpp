@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth of field on splats: the plane in focus untouched, everything else spread as a disc of its circle of confusion.
+// Depth of field on splats: the plane in focus unchanged, all else spread as a disc of its circle of confusion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,7 +79,7 @@ TEST(DepthOfField, PointSpreadAndEnergy) {
   EXPECT_EQ(compared, 3);
 }
 
-// Nothing is lost or won over a whole volume either.
+// The total over a whole volume is preserved too.
 TEST(DepthOfField, EnergyOfAVolume) {
   Lattice lattice = front_view();
   lattice.azimuth = 31;

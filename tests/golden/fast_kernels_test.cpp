@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What runs on vectors, beside what is written down: the same bits with every kind of vector instruction.
+// Vector code against its plain definition: the same bits with every kind of vector instruction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ TEST(FastKernels, KernelsAreWalkedBitForBit) {
           RayProfile plain(kernel, samples), fast(kernel, samples);
           std::vector<RayHit> hits;
           for (int i = 0; i < count; ++i) {
-            // Some on samples, some reach beyond the ends.
+            // Some on samples, some beyond the ends.
             const double depth = i % 5 == 0 ? (uniform.below(20) + 0.5) / 32.0 : uniform(-13.6, 13.6);
             hits.push_back(
                 {{uniform(0, 1), uniform(0, 1e-6), uniform(0, 1e6), uniform(0, 1)}, samples.position(depth)});

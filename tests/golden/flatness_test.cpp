@@ -53,8 +53,8 @@ struct Range {
 
 constexpr int kPhases = 16;  // even: contains the phases 0 and 1/2 where the extremes lie
 
-/// What the cut at R takes away from the lattice sum of an endless Gaussian of unit mean, over all phases: in 2-D the
-/// terms with |x| >= R; in 3-D those outside the cylinder |(x,y)| < R, |z| < R.
+/// The part of the lattice sum of an endless Gaussian of unit mean that the cut at R removes, over all phases: in 2-D
+/// the terms with |x| >= R; in 3-D those outside the cylinder |(x,y)| < R, |z| < R.
 Range cut_away(double a, double radius, int dimensions) {
   Range range;
   const double norm = std::pow(a / std::numbers::pi, 0.5 * dimensions);
@@ -104,8 +104,8 @@ TEST(Flatness, FieldOfSummedKernels) {
         }
       }
     }
-    // Endless Gaussian: the 1-D factor cubed. The cut moves each value by what it takes away, less the mean of that,
-    // which the normalisation over the support gives back: at most the range of the cut.
+    // Endless Gaussian: the 1-D factor cubed. The cut reduces each value by the removed part, less the mean of that
+    // part, which the normalisation over the support restores: at most the range of the cut.
     const Range cut = cut_away(row.a, row.radius, 3);
     const double tolerance = cut.high - cut.low + 1e-9;
     const double high = std::pow(theta(row.a, +1), 3);

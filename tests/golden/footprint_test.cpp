@@ -17,7 +17,7 @@ namespace {
 
 using scene::Method;
 
-/// The circular footprint before there were others, pixel by pixel in row order.
+/// The circular footprint of earlier versions, pixel by pixel in row order.
 struct CircularFootprint {
   std::vector<Footprint::Span> spans;
   std::vector<double> weights;
@@ -80,7 +80,7 @@ TEST(Footprint, CircleKeepsEveryBit) {
   EXPECT_GT(compared, 100000u);
 }
 
-// No pixel of an ellipse is missed and none comes twice: against the canonical form at every pixel.
+// No pixel of an ellipse is missed or repeated: against the canonical form at every pixel.
 TEST(Footprint, EllipseIsItsCanonicalForm) {
   const scene::Kernel kernel(2.0, 2.0);
   std::mt19937 random(5);
@@ -108,7 +108,7 @@ TEST(Footprint, EllipseIsItsCanonicalForm) {
       for (int px = 0; px < kSide; ++px) {
         const double dx = px - x, dy = py - y;
         const double q = a * dx * dx + b * dx * dy + d * dy * dy;
-        if (std::abs(q - 4) < 1e-9) continue;  // on the rim itself either is right
+        if (std::abs(q - 4) < 1e-9) continue;  // on the rim itself either result is right
         const double expected = q < 4 ? kernel.peak() * std::exp(-2 * q) : 0.0;
         worst = std::max(worst, std::abs(*image.pixel(px, py) - expected) / kernel.peak());
         inside += q < 4;
@@ -137,7 +137,8 @@ scene::Scene elliptic(scene::Scene scene) {
 }
 
 // The ball of radius r about the splat is seen within a cone that touches it in a circle around the line of sight. The
-// affine projection is exact to first order, so the rim misses the silhouette by O(r^2) pixels; the circle's by O(r).
+// affine projection is exact to first order, so its rim differs from the silhouette by O(r^2) pixels, the circle's by
+// O(r).
 TEST(Footprint, EllipseRimIsTheSilhouetteToSecondOrder) {
   const scene::Scene scene = elliptic(make_scene(wide_view()));
   const glm::dvec3 world(10.5, 1.5, 7.5);
@@ -198,7 +199,7 @@ TEST(Footprint, AreaRatioIsTheRootOfTheDeterminant) {
   figure("ellipse_area_ratio", sums[1] / sums[0], ("sqrt(det) = " + std::to_string(expected)).c_str());
   EXPECT_GT(expected, 1.1);
   EXPECT_NEAR(sums[1] / sums[0], expected, expected * bound);
-  // What it adds in all is what the circle adds.
+  // Its total equals that of the circle.
   EXPECT_NEAR(splats[1].value[3] * sums[1], splats[0].value[3] * sums[0], bound * splats[0].value[3] * sums[0]);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sweep over whole sheets: without stages it is the band sweep bit for bit; with stages that look around it is the
-// same for every number of threads; and it splats what occlusion shows, which sees the picture in front.
+// The sweep over whole sheets. Without stages it equals the band sweep bit for bit. Stages that read neighbouring
+// pixels give the same result for every number of threads. It splats the visible, as occlusion computes it from the
+// picture in front.
 #include "golden/frame_sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ Lattice view() {
   lattice.azimuth = 200;
   lattice.elevation = -35;
   lattice.projection = scene::Projection::Perspective;
-  lattice.pixels_per_mm = 6;  // some of it lies outside the picture
+  lattice.pixels_per_mm = 6;  // part of it lies outside the picture
   lattice.width = 71;
   lattice.height = 53;  // not a multiple of the band's rows
   return lattice;
@@ -30,7 +31,7 @@ Lattice view() {
 
 KernelSlices slices(const scene::Scene& scene) { return image_slabs(scene); }
 
-/// Leaves the sums as they are.
+/// Does not change the sums.
 class Idle final : public SheetStage {
  public:
   explicit Idle(bool neighbours) : neighbours_(neighbours) {}
@@ -155,7 +156,7 @@ class Record final : public SheetStage {
   mutable std::vector<double> before, here, behind;
 };
 
-// What the window shows in three roles is the same sheet, once each.
+// The window shows the same sheet in three roles, once each.
 TEST(FrameSweep, TheWindowShowsEverySheetInThreeRoles) {
   Record record;
   const scene::Scene scene = make_scene(view());
@@ -176,7 +177,7 @@ TEST(FrameSweep, TheWindowShowsEverySheetInThreeRoles) {
   EXPECT_GT(filled, 10);
 }
 
-/// Shows the splats of even place in each sheet only, or all; keeps the books.
+/// Shows the splats of even place in each sheet only, or all; checks the window's calls.
 class Books final : public Occlusion {
  public:
   Books(const scene::Scene& scene, const std::vector<scene::Splat>& splats, bool half)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floating-point renderer of 3-D Gaussians against what can be said in a formula, and what its order costs.
+// The floating-point renderer of 3-D Gaussians against closed formulas, and the cost of its order.
 #include "golden/gaussians.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ double psnr(const Image& a, const Image& b) {
   return -10.0 * std::log10(sum / static_cast<double>(a.data.size()));
 }
 
-// One Gaussian, looked at along an axis: everything about it is known.
+// One Gaussian, seen along an axis: its picture has a closed form.
 TEST(GoldenGaussians, OneIsItsFormula) {
   GaussianCloud cloud;
   add(cloud, {.position = glm::vec3(0.0F), .scale = glm::vec3(0.3F, 0.05F, 0.1F), .opacity = 0.8F}, {0.25, 0.5, 1.5});
@@ -72,7 +72,7 @@ TEST(GoldenGaussians, OneIsItsFormula) {
   EXPECT_LT(worst, 1e-6);
 }
 
-// Two over one another, and as many as it takes to finish a pixel.
+// Two over one another, and as many as complete a pixel.
 TEST(GoldenGaussians, NearerOnesDimFartherOnesUntilAPixelIsFinished) {
   GaussianCloud cloud;
   for (int i = 0; i < 8; ++i) {  // larger y is nearer
@@ -102,7 +102,7 @@ TEST(GoldenGaussians, NearerOnesDimFartherOnesUntilAPixelIsFinished) {
   EXPECT_GT(samples, 1000U);
 }
 
-// Two flat Gaussians that cross: their centres say one order for all pixels, the pixels each their own.
+// Two flat Gaussians that cross: their centres give one order for all pixels, but the true order varies by pixel.
 TEST(GoldenGaussians, CrossingOnesAreInFrontWhereTheyAreNearer) {
   const float half = static_cast<float>(std::sqrt(0.5));
   GaussianCloud cloud;
@@ -142,7 +142,7 @@ TEST(GoldenGaussians, CostOfTheOrderOfCentres) {
     const Image pixels = render_gaussians(scene, projected, {.order = GaussianOrder::Pixels, .samples = &by_pixels});
     const double apart = psnr(centres, pixels);
     figure(std::string(name) + ": order of centres against order at pixels", apart, "dB");
-    // Opacity does not depend on the order but for where a pixel is finished.
+    // Opacity does not depend on the order, except where a pixel is completed.
     double alpha = 0.0;
     for (std::size_t i = 3; i < centres.data.size(); i += 4)
       alpha = std::max(alpha, std::abs(double(centres.data[i]) - double(pixels.data[i])));
@@ -155,7 +155,7 @@ TEST(GoldenGaussians, CostOfTheOrderOfCentres) {
   }
 }
 
-// Opacity cut to 0.99 before it meets the kernel, not after: what that costs where every Gaussian is opaque.
+// Opacity is cut to 0.99 before the kernel, not after: the cost if every Gaussian is opaque.
 TEST(GoldenGaussians, CostOfTheCapBeforeTheKernel) {
   GaussianCloud cloud = scene::make_synthetic_gaussians("cloud:500");
   for (Gaussian& one : cloud.gaussians) one.opacity = 1.0F;

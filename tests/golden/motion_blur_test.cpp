@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion blur against what a film sees: the mean of many frames with the shutter open for an instant each.
+// Motion blur against film: the mean of many frames with the shutter open for an instant each.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(MotionBlur, NoMotionOnTheScreenKeepsEveryBit) {
     const Image expected = render_splats(method, still, splats);
     ASSERT_GT(max_opacity(expected), 0.1);
     EXPECT_EQ(expected, render_splats(method, moving(still, glm::dvec3(0)), splats)) << scene::to_string(method);
-    // Towards an orthographic camera: the way exists, but not on the screen.
+    // Towards an orthographic camera: motion exists, but not on the screen.
     EXPECT_EQ(render_splats(method, front_still, splats), render_splats(method, moving(front_still, {0, 3, 0}), splats))
         << scene::to_string(method);
   }
@@ -152,8 +152,8 @@ TEST(MotionBlur, XRayIsTheMeanOfTheFrames) {
   }
 }
 
-/// Composited pictures: a stretched kernel lets material of the whole way into one slab at once, the film never does.
-/// So they agree for thin material and differ at opaque edges, by what the test prints.
+/// Composited pictures: a stretched kernel puts the material of its whole path into one slab at once, film never does.
+/// They agree for thin material and differ at opaque edges, by the figures that the test prints.
 void compare_with_film(double opacity_scale, double rms_limit) {
   scene::SceneDescription d;
   d.volume = "binary-cube:32";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Occlusion culling on whole frames: not a bit of the picture changes, more opacity culls more, and nothing is culled
-// where everything can be seen through.
+// Occlusion culling on whole frames: no bit of the picture changes, more opacity culls more, and transparent scenes
+// cull nothing.
 #include "golden/occlusion_culling.hpp"
 
 #include <gtest/gtest.h>
@@ -123,7 +123,8 @@ TEST(OcclusionCulling, BlocksDoNotChangeTheOrder) {
   EXPECT_EQ(compared, splats.size());
 }
 
-// What looks around a pixel widens what must be opaque: a splat at `margin` pixels from an open half is kept.
+// Stages that read neighbouring pixels widen the area that must be opaque: a splat `margin` pixels from an open half is
+// kept.
 TEST(OcclusionCulling, AMarginKeepsTheSplatsBesideOpenPixels) {
   const scene::Scene scene = culled(opaque(), CullingMode::Splats);
   const std::vector<scene::Splat> splats = scene::collect_splats(scene);
@@ -149,7 +150,7 @@ TEST(OcclusionCulling, AMarginKeepsTheSplatsBesideOpenPixels) {
   EXPECT_GT(kept[1], kept[0]);
 }
 
-// Splats anywhere, of any opacity: holes between them, and blocks that are not full.
+// Splats at random places, of random opacity: holes between them, and blocks that are not full.
 TEST(OcclusionCulling, NorWithSplatsAtRandomPlaces) {
   Lattice lattice = opaque();
   std::uint64_t hidden = 0;
@@ -187,7 +188,7 @@ TEST(OcclusionCulling, NorWhenPixelsAreClassifiedAfterSplatting) {
   EXPECT_LT(blocks.report.share_splatted(), 0.9);
 }
 
-// Footprints of other shapes: tested by their own reach.
+// Footprints of other shapes: tested by their own extent.
 TEST(OcclusionCulling, NorWithEllipsesInPerspective) {
   Lattice lattice = scenes()[3];
   const auto with = [&](CullingMode mode) {
@@ -201,10 +202,10 @@ TEST(OcclusionCulling, NorWithEllipsesInPerspective) {
   EXPECT_LT(singly.report.share_splatted(), 0.9);
 }
 
-// Pixels that are not frozen go on gathering what is behind them: at most eps of it, since colours stay below 1.
+// Pixels that are not frozen still gather splats behind them: at most eps, since colours stay below 1.
 TEST(OcclusionCulling, WithoutFreezingTheDifferenceIsBelowTheThreshold) {
   Lattice lattice = opaque();
-  lattice.optical_depth = 0.6;  // so thin that much is still behind when a pixel passes the threshold
+  lattice.optical_depth = 0.6;  // thin enough that much is behind when a pixel passes the threshold
   const scene::Scene scene = make_scene(lattice);
   const std::vector<scene::Splat> splats = scene::collect_splats(scene);
   const KernelSlices slices = image_slabs(scene);
@@ -248,7 +249,7 @@ TEST(OcclusionCulling, CullsMoreTheMoreIsOpaque) {
   EXPECT_GT(last, 0.3);
 }
 
-// The deck's mean opacity: more is culled than may be, and what that costs is bounded by what shows through.
+// The deck's mean opacity: it culls more than is correct, by an error that the remaining transmittance bounds.
 TEST(OcclusionCulling, AverageIsNotExact) {
   scene::Scene scene = culled(opaque(), CullingMode::Splats);
   const Frame count = render_frame(scene);

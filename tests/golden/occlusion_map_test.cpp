@@ -54,7 +54,7 @@ TEST(SummedAreaTable, FourCornersAreTheSumOfEveryWindow) {
   EXPECT_GT(windows, 100000);
 }
 
-// The corner of an image whose total is beyond 2^32: entries wrap around, sums of windows do not notice.
+// The corner of an image whose total is beyond 2^32: entries wrap around, sums of windows do not change.
 TEST(SummedAreaTable, IsRightBeyondTheRangeOfItsEntries) {
   constexpr int kWidth = 8192, kHeight = 2080;
   constexpr double kTotal = 255.0 * kWidth * kHeight;
@@ -121,7 +121,7 @@ TEST(OcclusionMap, AverageOverlooksAHoleWhichCountSees) {
   figure("transmittance_that_average_hides", 1.0, "as much as there can be");
 }
 
-// What Average hides adds up to area * (1 - theta) at most; and a single pixel of it comes near that.
+// The hidden part of Average adds up to area * (1 - theta) at most; a single pixel comes near that.
 TEST(OcclusionMap, AverageKeepsItsBound) {
   Random random(3);
   long hidden = 0;
@@ -167,8 +167,8 @@ std::vector<Lattice> block_scenes() {
   return {oblique, near};
 }
 
-// A block may be called hidden only when none of its voxels could be seen: its window holds theirs, its sheet is no
-// later than theirs, whatever the map.
+// A block may be called hidden only if none of its voxels is visible: its window contains theirs and its sheet is no
+// later than theirs, for any map.
 TEST(VoxelBlocks, ABlockThatIsHiddenHasNoVisibleVoxel) {
   constexpr int kMargin = 2;
   long voxels = 0, hidden_blocks = 0, hidden_voxels = 0, leaves = 0;
@@ -189,7 +189,7 @@ TEST(VoxelBlocks, ABlockThatIsHiddenHasNoVisibleVoxel) {
 
     const VoxelBlocks blocks(*scene.volume, splats, 4);
     std::vector<int> seen(splats.size());
-    // Every splat under a block, itself a leaf or not.
+    // Every splat under a block, which may be a leaf.
     const std::function<void(const VoxelBlock&, const std::function<void(std::uint32_t)>&)> visit =
         [&](const VoxelBlock& block, const std::function<void(std::uint32_t)>& take) {
           if (block.leaf) {

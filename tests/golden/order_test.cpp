@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Within a sheet the order of the splats must not matter; for splats composited one by one it must.
+// Within a sheet the order of the splats does not matter; for splats composited one by one it does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Lattice turned_cube() {
   return lattice;
 }
 
-/// All splats in another order: since sheets are found by depth or by number, only the order within sheets changes.
+/// All splats in another order: sheets are found by depth or by number, so only the order within sheets changes.
 std::vector<scene::Splat> shuffled(std::vector<scene::Splat> splats) {
   std::mt19937 random(42);
   for (std::size_t i = splats.size(); i > 1; --i) std::swap(splats[i - 1], splats[random() % i]);
@@ -39,8 +39,8 @@ TEST(Order, DoesNotMatterWithinASheet) {
     for (const Method method : {Method::ImageAligned, Method::AxisAligned, Method::XRay}) {
       const Image a = render_splats(method, scene, splats);
       const Image b = render_splats(method, scene, permuted);
-      // Sums of doubles in two orders differ by about 60 overlaps * 1.1e-16; a float pixel then differs by one rounding
-      // at most, and so seldom that most pixels are equal: a chance of about 60 * 2^-53 / 2^-24 each, times the sheets.
+      // Sums of doubles in two orders differ by about 60 overlaps * 1.1e-16. A float pixel then differs by one rounding
+      // at most, and most pixels are equal: a chance of about 60 * 2^-53 / 2^-24 each, times the sheets.
       const double largest = std::max(1.0, max_opacity(a));
       const double difference = max_difference(a, b) / largest;
       std::size_t differing = 0;
@@ -58,7 +58,7 @@ TEST(Order, MattersForWestover) {
   const scene::Scene scene = make_scene(turned_cube());
   std::vector<scene::Splat> splats = scene::collect_splats(scene);
   const Image before = westover(scene, splats, {});
-  // The same layers in the same order; only inside each layer the order is turned round.
+  // The same layers in the same order; only the order inside each layer is reversed.
   const auto same_layer = [](const scene::Splat& a, const scene::Splat& b) { return a.sheet < b.sheet; };
   std::reverse(splats.begin(), splats.end());
   std::stable_sort(splats.begin(), splats.end(), same_layer);
@@ -67,8 +67,8 @@ TEST(Order, MattersForWestover) {
   EXPECT_GT(difference, 0.01);
 }
 
-// Adding a layer's opacities gives the layer's opacity, flat to the kernel's ripple; compositing them one by one gives
-// less: c1+c2 > c1+c2(1-a1).
+// Adding a layer's opacities gives the layer's opacity, flat up to the kernel's ripple; compositing them one by one
+// gives less: c1+c2 > c1+c2(1-a1).
 TEST(Order, CompositingOverlapsInsteadOfAddingLosesOpacity) {
   Lattice lattice;
   lattice.dims = {19, 1, 19};

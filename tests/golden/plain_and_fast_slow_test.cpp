@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole pictures drawn as it is written down and the fast way: the same floats, over methods, views, kernels,
-// techniques and numbers of threads, thin and opaque.
+// Whole pictures by the plain and the fast code: the same floats, over methods, views, kernels, techniques and numbers
+// of threads, thin and opaque.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -14,7 +14,7 @@ namespace {
 
 using scene::Method;
 
-/// What was compared, in all.
+/// Totals of the comparisons.
 struct Tally {
   std::size_t pictures = 0, floats = 0, differing = 0;
   std::uint64_t footprints = 0, hidden = 0;
@@ -134,7 +134,7 @@ TEST(PlainAndFast, EveryTechnique) {
   EXPECT_GT(tally.hidden, 0u);
 }
 
-// Where a splat shines more than it hides, what is behind could still show, however opaque: nothing may be left out.
+// If a splat emits more than it hides, splats behind could still show at any opacity: none may be omitted.
 TEST(PlainAndFast, BrighterThanOpaque) {
   Lattice lattice = view();
   const scene::Scene scene = make_scene(lattice);
@@ -177,7 +177,7 @@ TEST(PlainAndFast, RaysThinAndOpaque) {
   figure("floats_equal_bit_for_bit", static_cast<double>(tally.floats - tally.differing), "every one");
 }
 
-// A ray that ends where its transmittance is below e lacks at most e of any channel, and lacks it for good.
+// A ray that ends when its transmittance is below e misses at most e of any channel.
 TEST(PlainAndFast, ARayEndsByNoMoreThanItsEnd) {
   Lattice lattice = view();
   lattice.width = 41, lattice.height = 37, lattice.pixels_per_mm = 1.5;

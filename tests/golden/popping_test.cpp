@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turning past 45 degrees flips the dominant axis: axis-aligned sheets pop, image-aligned ones must not.
-// P = rms(I(45.2)-I(44.7)) / rms(I(44.7)-I(44.2)); 1 is a picture that just goes on turning.
+// Turning past 45 degrees flips the dominant axis: axis-aligned sheets pop, image-aligned ones must not. P =
+// rms(I(45.2)-I(44.7)) / rms(I(44.7)-I(44.2)); a picture that only turns has P = 1.
 #include <gtest/gtest.h>
 
 #include "scenes_helper.hpp"
@@ -11,8 +11,8 @@ namespace {
 using scene::Method;
 using scene::SlabOpacity;
 
-// The cube of splatting.md section 2 item 3: 16^3, 4 pixels a voxel, opacity .6 a voxel. Tilted and graded in colour,
-// for a cube of one colour seen level is mirror-symmetric about 45 degrees and cannot pop.
+// The cube of splatting.md section 2 item 3: 16^3, 4 pixels a voxel, opacity .6 a voxel. Tilted and graded in colour: a
+// cube of one colour seen level is mirror-symmetric about 45 degrees and cannot pop.
 Lattice cube(SlabOpacity opacity) {
   Lattice lattice;
   lattice.dims = glm::ivec3(16);
@@ -49,7 +49,7 @@ TEST(Popping, AxisAlignedPops) {
   const double added = popping(cube(SlabOpacity::Additive), Method::AxisAligned);
   figure("popping_axis_aligned_additive", added, "at least 3");
   EXPECT_GE(added, 3.0);
-  // Exponential sheets make up for the longer way through an oblique sheet, so they pop less, but they pop.
+  // Exponential sheets compensate for the longer path through an oblique sheet: they pop less, but they pop.
   const double exponential = popping(cube(SlabOpacity::Exponential), Method::AxisAligned);
   figure("popping_axis_aligned_exponential", exponential, "above 2, less than additive");
   EXPECT_GT(exponential, 2.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Classification after splatting: its definition, edges that stay sharp under zoom, normals of a ball, voxels that need
-// not be splatted.
+// no splat.
 #include "golden/post_classified.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ DensityScene soft_ball() {
   return what;
 }
 
-/// docs/techniques/post-classified.md written out pixel by pixel.
+/// docs/techniques/post-classified.md written pixel by pixel.
 Image defined(const scene::Scene& scene) {
   const double a = scene.kernel.a(), r = scene.kernel.radius(), unit = scene.volume->kernel_unit();
   const double peak = a / std::numbers::pi / -std::expm1(-a * r * r);
@@ -103,7 +103,7 @@ TEST(PostClassified, IsItsDefinition) {
   EXPECT_LE(worst, kOneRounding);
 }
 
-/// From where the opacity along the middle row passes 90 % to where it passes 10 %, pixels.
+/// Distance along the middle row from opacity 90 % to opacity 10 %, pixels.
 double edge_width(const Image& image) {
   const int y = image.height / 2;
   const auto passes = [&](double level) {
@@ -172,9 +172,9 @@ class Normals final : public SheetStage {
 };
 
 // Limit: the reconstruction of a flat density d ripples by d eps cos(2 pi x) (docs/golden.md, "Kernels"), which tilts
-// the slope 1/8 of this ball by asin(2 pi d eps / slope); differences over a voxel in depth add W^2/6 of the third
-// derivative, at most 1/(6 * 8^2) rad where the ball's radius is
-// above 8. A leaning ray meets the lattice sheared, which ripples more: twice is allowed at 60 degrees.
+// the slope 1/8 of this ball by asin(2 pi d eps / slope). Differences over a voxel in depth add W^2/6 of the third
+// derivative, at most 1/(6 * 8^2) rad where the ball's radius is above 8. A leaning ray meets the lattice sheared,
+// which ripples more: twice is allowed at 60 degrees.
 TEST(PostClassified, NormalsOfABall) {
   struct Flatness {
     const char* name;
@@ -223,7 +223,7 @@ TEST(PostClassified, NormalsOfABall) {
   }
 }
 
-// A peak of opacity in the middle of the range: what is above is clear, but must be splatted, or its neighbours'
+// A peak of opacity in the middle of the range: values above it are clear but must be splatted, or their neighbours'
 // partial sums would pass through the peak.
 TEST(PostClassified, VoxelsThatCannotMatterAreNotSplatted) {
   for (const auto& [kind, projection] : {std::pair(GradientKind::Central, scene::Projection::Orthographic),
@@ -232,7 +232,7 @@ TEST(PostClassified, VoxelsThatCannotMatterAreNotSplatted) {
     what.dims = glm::ivec3(52);
     what.width = what.height = 60;
     what.pixels_per_mm = 1.0;
-    // A wide flat kernel, a hard edge, and around it what is just too thin to be seen: there the reach is all used.
+    // A wide flat kernel, a hard edge, and around it values just too thin to be visible: there the whole reach is used.
     what.a = 1.02;
     what.radius = 3.0;
     what.description.slab_width = projection == scene::Projection::Orthographic ? 2.0 : 1.0;
@@ -312,7 +312,7 @@ TEST(PostClassified, TheRippleBoundHolds) {
   }
 }
 
-// Where the volume's least value is seen, it is seen inside the volume only.
+// If the volume's least value is visible, it is visible inside the volume only.
 TEST(PostClassified, AVisibleBackgroundEndsWithTheVolume) {
   DensityScene what = soft_ball();
   what.dims = {10, 6, 8};

@@ -17,7 +17,7 @@ TEST(RayCastSlow, ShellsAgainstSlabs) {
   description.shading = 0;
   const auto volume = std::make_shared<volume::Volume>(volume::make_synthetic("shells", 64));
   scene::Scene scene = scene::build_scene(description, volume);
-  // Colours that change with depth inside each shell, so that what hides what shows in the picture.
+  // Colours that change with depth inside each shell, so that the picture shows the order.
   scene.transfer_function = {};
   scene.transfer_function.domain = scene::Domain::Value;
   scene.transfer_function.points = {{0.05, {0.0, 0.0, 0.0}, 0.0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every technique must do alike: same bits for any number of threads, nothing from nothing, progress told,
+// Common to all techniques: same bits for any number of threads, an empty picture of an empty scene, progress reports,
 // perspective from far away like orthographic.
 #include <gtest/gtest.h>
 
@@ -140,7 +140,7 @@ TEST(Render, ExponentialOpacityDoesNotDependOnTheGrouping) {
 
 TEST(Render, PerspectiveFromAfarIsOrthographic) {
   // Foreshortening across the volume is (its depth)/(eye distance), proportional to the field of view: the difference
-  // to the orthographic picture must shrink with order 1.
+  // from the orthographic picture must shrink with order 1.
   Lattice lattice = odd_view();
   lattice.width = lattice.height = 96;
   for (const Method method : {Method::RayCast, Method::ImageAligned}) {

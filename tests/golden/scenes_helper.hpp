@@ -11,7 +11,7 @@
 
 namespace fastsplat::golden::testing {
 
-/// What a test scene is made of: a lattice whose voxels are all alike in opacity and graded in colour along x.
+/// The contents of a test scene: a lattice of voxels of equal opacity, graded in colour along x.
 struct Lattice {
   glm::ivec3 dims{16};
   glm::dvec3 spacing{1.0};
@@ -35,7 +35,7 @@ scene::Scene make_empty_scene(const Lattice& lattice);
 /// `count` splats at random places within the lattice's box, of random colour and extinction up to `optical_depth`.
 std::vector<scene::Splat> random_splats(const scene::Scene& scene, int count, double optical_depth, unsigned seed);
 
-/// The technique of the scene's method on these splats.
+/// Renders these splats by the technique of the scene's method.
 Image render_splats(scene::Method method, const scene::Scene& scene, const std::vector<scene::Splat>& splats,
                     int threads = 0);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settled pixels: nothing behind changes what is stored, and what reaches none but settled pixels is found.
+// Settled pixels: splats behind them do not change the stored value, and splats that reach only settled pixels are
+// found.
 #include "golden/settled_pixels.hpp"
 
 #include <gtest/gtest.h>
@@ -22,14 +23,14 @@ Stored stored(const FrontToBack& pixel) {
   return rgba;
 }
 
-// Whatever lies behind: nothing, one opaque layer of the brightest or the darkest colour, thousands of thin ones.
+// Any background: nothing, one opaque layer of the brightest or the darkest colour, thousands of thin ones.
 TEST(SettledPixels, SplatsBehindDoNotChangeStoredPixels) {
   std::mt19937 random(9);
   const auto uniform = [&random](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
   int settled_ones = 0, open_ones = 0, changed = 0;
   for (int i = 0; i < 20000; ++i) {
     FrontToBack pixel{uniform(0, 1), uniform(0, 1) * 0x1p-6, uniform(0, 1), std::exp2(-uniform(20, 60))};
-    // Close to where rounding to float changes its mind, from either side.
+    // Close to a rounding boundary of float, from either side.
     if (i % 3 == 0) {
       const float low = static_cast<float>(pixel.red), high = std::nextafter(low, 2.0f);
       pixel.red = 0.5 * (static_cast<double>(low) + high) - uniform(-1, 3) * pixel.transmittance;

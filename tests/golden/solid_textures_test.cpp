@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solid textures and bumps: sharp whatever the voxels when made at pixels, fixed to the object, nothing at amplitude 0.
+// Solid textures and bumps: sharp for any voxel size if made at pixels, fixed to the object, without effect at
+// amplitude 0.
 #include "golden/solid_textures.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ using scene::ClassifyOrder;
 using scene::SolidKind;
 using scene::TextureWhere;
 
-/// A white block of 64 x 16 x 64 mm, seen along y, of voxels of some size.
+/// A white block of 64 x 16 x 64 mm, seen along y, with voxels of a given size.
 DensityScene block(double voxel) {
   DensityScene what;
   what.dims = glm::ivec3(glm::round(glm::dvec3(64, 16, 64) / voxel));
@@ -46,10 +47,9 @@ double wave_amplitude(const Image& image, double length) {
   return 2.0 * std::hypot(c, s) / count;
 }
 
-// N-8-18 at voxels, and N-8-106, N-8-107 of stripes.
-// A stripe's tint is a wave of amplitude 0.4 about 0.6. At pixels it must arrive whole, whatever the voxels; at voxels
-// it is blurred by the kernel, whose spectrum is exp(-pi^2 (h/L)^2 / a) for voxels of h and waves of L (its cut at R
-// moves that by no more than exp(-a R^2)).
+// N-8-18 at voxels, and N-8-106, N-8-107 for stripes. A stripe's tint is a wave of amplitude 0.4 about 0.6. At pixels
+// it must arrive whole for any voxel size. At voxels it is blurred by the kernel, whose spectrum is exp(-pi^2 (h/L)^2 /
+// a) for voxels of h and waves of L (its cut at R moves that by no more than exp(-a R^2)).
 TEST(SolidTexture, AtPixelsItDoesNotDependOnTheVoxels) {
   constexpr double kWave = 12.0;  // mm
   for (const double voxel : {1.0, 2.0, 4.0}) {
@@ -73,8 +73,8 @@ TEST(SolidTexture, AtPixelsItDoesNotDependOnTheVoxels) {
   }
 }
 
-// Points of a ball, found in two pictures of it: what was tinted at one azimuth is tinted at the other, but
-// for the width of a pixel and of the edge. A texture that stayed with the picture would differ by the control.
+// Points of a ball, found in two pictures of it: the tint at one azimuth is the tint at the other, up to the width of a
+// pixel and of the edge. A texture fixed to the picture would differ by the control.
 TEST(SolidTexture, TurnsWithTheObject) {
   for (const auto order : {ClassifyOrder::Pre, ClassifyOrder::Post}) {
     DensityScene what;

@@ -7,7 +7,7 @@
 namespace fastsplat::golden::testing {
 
 Targets::Targets() {
-  // Of all bits of the processor's kinds those that code was made for.
+  // The processor's bits for the instruction sets that code was compiled for.
   for (auto left = static_cast<std::uint64_t>(hwy::SupportedTargets()) & static_cast<std::uint64_t>(HWY_TARGETS);
        left != 0; left &= left - 1) {
     all_.push_back(left & -left);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textured splats: detail that changes nothing but detail, cycles, and can be turned off to the last bit.
+// Textured splats: detail that changes nothing else, cycles, and no effect when off, to the last bit.
 #include "scene/textured_splats.hpp"
 
 #include <gtest/gtest.h>
@@ -114,8 +114,8 @@ TEST(TexturedSplats, MeanOverTheCycleIsThePlainSplat) {
     EXPECT_NE(image, plain);
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += image.data[i] / static_cast<double>(kPhases);
   }
-  // Sums are linear in the footprints: what is left is each picture's one rounding to float, at most half an ulp of its
-  // own value, which is at most (1 + m) times the plain one, and that of the plain picture.
+  // Sums are linear in the footprints. The remaining errors are one rounding to float in each picture, at most half an
+  // ulp of its own value, which is at most (1 + m) times the plain one; and that of the plain picture.
   double worst = 0.0;
   int compared = 0;
   for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -160,8 +160,8 @@ Plane opacity_of(const Image& image) {
   return plane;
 }
 
-// High: what a blur of half a kernel unit takes away. Low: what one of three half units leaves. In the middle of the
-// picture, where the block is all around.
+// High: the part that a blur of half a kernel unit removes. Low: the part that a blur of three half units leaves. In
+// the middle of the picture, with the block on all sides.
 TEST(TexturedSplats, DetailRisesAndTheLowBandStays) {
   const Lattice lattice = block();
   const int width = lattice.width;

@@ -77,7 +77,7 @@ TEST(XRay, SheetsDoNotMatter) {
   }
 }
 
-// A long ring of wide sheets makes the bands narrower; that must not show either.
+// A long ring of wide sheets makes the bands narrower; this must not show either.
 TEST(XRay, ManySheetsInAWideImage) {
   Lattice lattice;
   lattice.azimuth = 31;
@@ -105,7 +105,7 @@ TEST(XRay, ExposureScalesEverything) {
   for (std::size_t i = 0; i < once.data.size(); ++i) ASSERT_EQ(once.data[i] * 0.25f, quarter.data[i]);
 }
 
-// The slabs cover the volume whatever the view; a splat placed outside them must go to the nearest slab, not be lost.
+// The slabs cover the volume in any view; a splat outside them goes to the nearest slab.
 TEST(XRay, SplatsInFrontOfAndBehindAllSlabsCount) {
   Lattice lattice;
   lattice.dims = glm::ivec3(4);

@@ -79,7 +79,7 @@ module icarus_bench;
     #5 clk_i = 1'b0;
   endtask
 
-  // One cycle outside reset. All that the device sees changes at its beginning and is looked at before the edge (M-port-3).
+  // One cycle outside reset. All inputs of the device change at its beginning and are read before the edge (M-port-3).
   task automatic step;
     offering = sent < to_send && (offering || willing[input_pattern*LENGTH+cycle%LENGTH]);
     s_tvalid_i = offering;
@@ -152,12 +152,12 @@ module icarus_bench;
     play = 0;
     while ($fscanf(file, "%d %d %d %d %d", reset_cycles, to_send, linger, input_pattern, ready_pattern) == 5) begin
       rst_ni = 1'b0;
-      // What waits at reset waits on: a beat of this play, and a sink that may be willing.
+      // Beats that wait at reset keep waiting: a beat of this play, and a sink that may be ready.
       s_tvalid_i = play % 2 == 1;
       s_tdata_i = beats[0];
       m_tready_i = play % 3 == 1;
       for (int i = 0; i < reset_cycles; i++) begin
-        // While it is low nothing is offered and nothing answered; its first cycle is that of whatever went on.
+        // While it is low nothing is offered and nothing answered; its first cycle is that of the next play.
         if (i > 0 && {m_tvalid_o, rvalid_o, bvalid_o, error_o} !== 4'b0000) wrong("stray", "answer in reset");
         #1 edge_of_clock;
       end

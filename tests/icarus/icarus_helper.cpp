@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 /// As in icarus_bench.sv.
 constexpr std::uint64_t kPatternCycles = 32768;
-/// Of a bench that stands still in one moment of time; one that goes on needs a tenth of it.
+/// For a bench stuck in one moment of time; a running bench needs a tenth of it.
 constexpr int kSeconds = 600;
 
 std::string text_of(const fs::path& path) {

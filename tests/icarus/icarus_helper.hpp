@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Icarus Verilog as a second simulator: rtl/ compiled unchanged, streams played to it, what it wrote read back.
-// Four-state: a bit that nobody set is X, and stays X wherever it matters.
+// Icarus Verilog as a second simulator: compiles rtl/ unchanged, plays streams to it and reads back its output.
+// Four-state: an unset bit is X, and stays X wherever it matters.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ struct Played {
   std::vector<Play> plays;
 };
 
-/// A beat of pixels as it was written: a word's text holds an X where the device's word does.
+/// A beat of pixels as written: a word's text holds an X where the device's word does.
 struct PixelBeat {
   std::string last, keep, data;
 };
 
-/// What one play gave. Pixels of a play that was cut off are those taken before.
+/// The output of one play. For a play that was cut off: the pixels taken before.
 struct PlayResult {
   std::vector<PixelBeat> pixels;
   std::vector<std::uint64_t> counters;  ///< all registers, in their order; of a play to rest
@@ -44,20 +44,20 @@ struct PlayResult {
 };
 
 struct Transcript {
-  std::string power_up;            ///< what the outputs were before the first reset
-  std::vector<std::string> wrong;  ///< unknown values where none may be, answers nobody asked for, hangs
+  std::string power_up;            ///< the outputs before the first reset
+  std::vector<std::string> wrong;  ///< unknown values where none may be, unrequested answers, hangs
   std::map<int, PlayResult> plays;
   bool ended = false;  ///< all plays were played
 };
 
 /// How always_comb is read. Icarus 11 gives all such blocks one common event, so that each runs whenever any of them
 /// does. Two blocks that pass on an intermediate value (a default, then the final one) wake each other for ever, in the
-/// same time step (its issue 508, fixed after 11.0). As `always @*` each waits only for what it reads.
+/// same time step (its issue 508, fixed after 11.0). As `always @*` each waits only for the signals that it reads.
 enum class Combinational { AsWritten, AlwaysStar };
 
 class Icarus {
  public:
-  /// Empty where both iverilog and vvp can be run; otherwise what to say.
+  /// Empty if both iverilog and vvp can be run; otherwise the reason.
   static std::string missing();
   static std::string version();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTL under a second, four-state simulator: every pixel, counter and cycle is the model's, and nothing that decides
-// is unknown, from power-up on and after a reset of any length in any record.
+// The RTL under a second, four-state simulator: every pixel, counter and cycle is the model's. No deciding signal is
+// unknown, from power-up on and after a reset of any length in any record.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace {
 using cmodel::Beat;
 using testbench::Pattern;
 
-/// What the device should have sent and counted, by the model.
+/// The expected output and counts of the device, by the model.
 struct Expected {
   struct Row {
     bool last = false;
@@ -29,7 +29,7 @@ struct Expected {
   };
   std::vector<Row> rows;  ///< of pixels, by beat
   cmodel::Counters counters;
-  cmodel::CullLog culls;  ///< what the device hides, which the cycle model is told
+  cmodel::CullLog culls;  ///< groups that the device hides, input of the cycle model
 };
 
 class Rows final : public cmodel::PixelSink {
@@ -61,8 +61,8 @@ Expected expected_of(const cmodel::Config& config, const std::vector<Beat>& beat
   return expected;
 }
 
-/// The words of a beat's kept pixels (M-port-5); empty if one of them is not known, or if what is kept is no row from
-/// its left (M-port-6).
+/// The words of a beat's kept pixels (M-port-5); empty if one of them is unknown, or if the kept pixels are not a row
+/// from its left (M-port-6).
 std::vector<std::uint32_t> kept_words(const PixelBeat& beat) {
   std::vector<std::uint32_t> words;
   for (std::size_t lane = 0; lane < beat.keep.size(); ++lane) {
@@ -85,7 +85,7 @@ struct Comparison {
   }
 };
 
-/// All plays against the model: those to rest whole, the others up to where they were cut off.
+/// All plays against the model: plays to rest as a whole, the others up to their cut.
 Comparison compare(const cmodel::Config& config, const Played& played, const Transcript& transcript) {
   Comparison out;
   const Expected expected = expected_of(config, played.beats);
@@ -157,7 +157,7 @@ void judge(const std::string& what, const cmodel::Config& config, const Played& 
       static_cast<unsigned long long>(comparison.differences), transcript.wrong.size());
 }
 
-/// Only the radius set of the fewest words, for all splats: Icarus needs a millisecond for a cycle of `small`, and a
+/// Only the radius set with the fewest words, for all splats: Icarus needs a millisecond for a cycle of `small`, and a
 /// table word takes one.
 void keep_smallest_set(testbench::StreamDocument& document) {
   const cmodel::LoadTable* least = nullptr;
@@ -174,7 +174,7 @@ void keep_smallest_set(testbench::StreamDocument& document) {
         if (auto* splat = std::get_if<cmodel::SplatRecord>(&record)) splat->set = kept.radius.set;
 }
 
-/// Two small tiles with all kinds of records, and no more tables than they need: what a reset may fall into.
+/// Two small tiles with all kinds of records, and a minimum of tables: the stream that resets cut.
 std::vector<Beat> every_kind(const cmodel::Config& config) {
   testbench::StreamDocument document;
   for (std::uint64_t seed = 5; document.tiles.size() < 2 || document.tiles.front().sheets.empty(); ++seed)
@@ -225,7 +225,7 @@ TEST_P(SecondSimulator, StreamsEqualTheModelUnderEveryPattern) {
   std::printf("[figure] %s\n", Icarus::version().c_str());
   Played played = scene_of(config());
   Transcript transcript = icarus.play(played);
-  // Four-state from the first moment: nothing is known before the first reset.
+  // Four-state from the first moment: all is unknown before the first reset.
   EXPECT_EQ(transcript.power_up, "s_tready=x m_tvalid=x bvalid=x rvalid=x error=x");
   judge(std::string(GetParam()) + " scene", config(), played, transcript);
 
@@ -250,7 +250,7 @@ TEST_P(SecondSimulator, ResetsOfAnyLengthInAnyRecordLeaveNothingBehind) {
   const auto cut = [&](const std::vector<std::size_t>& beats, int reset) {
     const std::size_t beat = beats[random() % beats.size()];
     const auto pattern = [&] { return random() % played.patterns.size(); };
-    // In the register still, or up to where its windows, blocks and pixels are.
+    // In the register still, or up to its windows, blocks and pixels.
     const int linger = random() % 2 == 0 ? 0 : static_cast<int>(random() % 30);
     played.plays.push_back({.reset = 4, .beats = beat + 1, .linger = linger, .input = pattern(), .ready = pattern()});
     played.plays.push_back({.reset = reset, .beats = played.beats.size(), .input = pattern(), .ready = pattern()});
@@ -268,7 +268,7 @@ TEST_P(SecondSimulator, ResetsOfAnyLengthInAnyRecordLeaveNothingBehind) {
 INSTANTIATE_TEST_SUITE_P(Configurations, SecondSimulator, ::testing::Values("tiny", "small"),
                          [](const auto& param) { return std::string(param.param); });
 
-/// What only some devices have. AsWritten where Icarus 11 can (icarus_helper.hpp).
+/// Features that only some devices have. AsWritten where Icarus 11 can (icarus_helper.hpp).
 struct Variant {
   const char* name;
   const char* config;
@@ -328,8 +328,8 @@ struct Planted {
 };
 void PrintTo(const Planted& planted, std::ostream* out) { *out << planted.name; }
 
-/// Registers and memories that are used before anything was written to them: two-valued simulation shows whatever
-/// number it began with, and may never see a difference.
+/// Registers and memories that are read before they are written: two-valued simulation starts them with some number and
+/// may never show a difference.
 class UsedBeforeSet : public ::testing::TestWithParam<Planted> {};
 
 TEST_P(UsedBeforeSet, IsSeenAsUnknown) {

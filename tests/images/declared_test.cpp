@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What files declare of their numbers is followed, or refused by name.
+// Declarations of files about their numbers are followed, or refused by name.
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ std::string defect(const std::string& bytes) {
   return exr_defect({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
-/// A right value of each type that OpenEXR 3.1 knows.
+/// A valid value of each type that OpenEXR 3.1 knows.
 const std::vector<std::pair<std::string, std::string>>& values() {
   static const std::vector<std::pair<std::string, std::string>> all = [] {
     std::vector<std::pair<std::string, std::string>> of{
@@ -106,9 +106,9 @@ TEST(ExrHeader, ALengthBeyondTheEndIsNamed) {
     const std::string bytes = kOnePart + text("a") + text("string") + word(length) + "xy";
     EXPECT_EQ(defect(bytes), "an attribute of " + std::to_string(length) + " bytes exceeds the remaining 2 at byte 8");
   }
-  // A list of texts whose own lengths lie.
+  // A list of texts with false lengths.
   EXPECT_NE(defect(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kEnd), "");
-  // 2^16 x 2^16 pixels: as a number of 32 bits, none.
+  // 2^16 x 2^16 pixels: 0 as a number of 32 bits.
   EXPECT_NE(defect(kOnePart + attribute("preview", word(1 << 16) + word(1 << 16)) + kEnd), "");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged files: they load whole or are refused in one line; nothing crashes, nothing is printed, no memory is wasted.
+// Damaged files load whole or are refused in one line; nothing crashes, nothing is printed, no memory is wasted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -54,7 +54,7 @@ void write(const std::filesystem::path& path, PixelKind kind) {
 
 enum class Outcome { Same, Different, Refused };
 
-/// A good file and what reading its damaged copies gives.
+/// A valid file and the result of reading its damaged copies.
 class Specimen {
  public:
   explicit Specimen(const Case& format) : format_(format) {
@@ -180,7 +180,7 @@ TEST(DamagedImage, LengthOfAnAttributeThatLiesCostsNoMemory) {
   EXPECT_LE(grown, 1);
 }
 
-/// Soft limit on file sizes; without the signal, writing beyond it fails as on a full disk.
+/// Soft limit on file sizes; with the signal ignored, writing beyond it fails as on a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written is read back: values, words, metadata; what cannot be is refused.
+// Written files read back: values, words, metadata; unsupported ones are refused.
 #include "base/images/image_file.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -54,7 +54,7 @@ TEST(ImageFile, ValuesAndMetadataComeBack) {
       // Eleven bits fit half exactly, so that nothing may change.
       for (float& value : image.data) value = std::floor(value * 2048) / 2048;
     }
-    // Alpha 0 under colour that is not: (un)premultiplication would destroy it.
+    // Alpha 0 under a visible colour: (un)premultiplication would destroy it.
     if (channels == 4) image.pixel(3, 2)[3] = 0.0f;
 
     EXPECT_EQ(write_image(folder / format.name, image, kMetadata, {.kind = format.kind}), 0u);
@@ -277,7 +277,7 @@ TEST(ImageFile, ReadsJpegOfOtherPrograms) {
   EXPECT_EQ(loaded.image.channels, 3);
   EXPECT_TRUE(loaded.metadata.empty());
   ASSERT_FALSE(loaded.image.data.empty());
-  // Cut anywhere it is refused, and not filled up with grey.
+  // A cut file is refused, not filled up with grey.
   std::ifstream in(path, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   int cuts = 0;

@@ -14,7 +14,7 @@
 
 namespace fastsplat::images {
 
-/// An empty folder of this test's own, gone with the object.
+/// An empty folder of this test, removed with the object.
 class TempFolder {
  public:
   TempFolder();

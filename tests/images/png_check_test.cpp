@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG files whose checksums are right and whose content is not: built chunk by chunk.
+// PNG files with valid checksums and invalid content, built chunk by chunk.
 #include "base/images/png_check.hpp"
 
 #include <gmock/gmock.h>

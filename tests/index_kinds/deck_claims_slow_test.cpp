@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The deck's sentences: each judged, and by its figures.
+// The deck's sentences: each has a verdict, by its figures.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -29,7 +29,7 @@ TEST(DeckClaims, VerdictsFollowTheFigures) {
   EXPECT_EQ(before.size(), 10U);
   EXPECT_EQ(claim_of(before, "2D FastSplat").verdict, Verdict::InPart) << "accurate and compact at once?";
 
-  // The same cells with a coarse rlut that holds much, and ellipses that cost one add more.
+  // The same cells with a coarse rlut with many entries, and ellipses with one add more.
   for (FamilyCell& cell : cells) {
     if (cell.config.index() == IndexKind::Rlut) cell.bits *= 1000;
     if (cell.config.index() == IndexKind::SquaredElliptic) ++cell.operations.adds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of the family, and what its table must show.
+// The page of the family, and the content of its table.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures as XML: series, points, words; and where points come to lie.
+// The plots as XML: series, points, words; and the places of points.
 #include "tools/pages/family/plot.hpp"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(Plot, TheReaderRejectsInvalidXml) {
     EXPECT_THROW(parse_xml(text), std::runtime_error) << text;
 }
 
-// Those that docs/ keeps: six kinds; over the grid five points each.
+// The plots in docs/: six kinds; over the grid five points each.
 TEST(Plot, ThePagesPicturesAreWhole) {
   int pictures = 0, points = 0;
   for (const char* file : kFamilyPictures) {

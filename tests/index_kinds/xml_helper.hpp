@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As much of XML as our pictures have, read strictly: elements, attributes, text, the entities lt, gt and amp.
+// The subset of XML in our pictures, read strictly: elements, attributes, text, the entities lt, gt and amp.
 #pragma once
 
 #include <map>
@@ -14,11 +14,11 @@ struct XmlElement {
   std::string text;  ///< between the children
   std::vector<XmlElement> children;
 
-  /// All of that name, at any depth.
+  /// All elements of this name, at any depth.
   std::vector<const XmlElement*> all(const std::string& wanted) const;
 };
 
-/// Throws std::runtime_error with the place of what is wrong.
+/// Throws std::runtime_error with the place of the error.
 XmlElement parse_xml(const std::string& text);
 
 }  // namespace fastsplat::analysis

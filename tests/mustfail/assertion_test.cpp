@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An assertion of the RTL that fails inside `verify`: told in one line with its name, its instance and its cycle, as a
+// An assertion of the RTL that fails inside `verify`: reported in one line with its name, instance and cycle, as a
 // fault of the simulation, and shrunk and replayed like any other failure.
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(SimulatorOutput, FindsTheFirstFailedAssertion) {
   EXPECT_EQ(testbench::first_failed_assertion("nothing of the kind").name, "");
 }
 
-// What Verilator prints goes by the thread's simulation, which was that of a device that is gone.
+// Verilator prints to the thread's simulation context, which was that of a destroyed device.
 TEST(AssertionOfADevice, ReportsAnErrorOfADeviceWhenALaterOneIsGone) {
   const auto options = broken(Fault::EARLY_SWAP, Assertions::On);
   cmodel::NullPixels pixels;

@@ -45,9 +45,8 @@ struct Tables {
   std::vector<std::uint32_t> rlut, radial, factor;
 };
 
-/// Splats of one window each on two neighbouring centres, in sheets that follow each other without a stall: every
-/// sheet's buffer is free again before it is wanted, so the words of sheet s+1 come three cycles after those of sheet
-/// s.
+/// Splats of one window each on two neighbouring centres, in successive sheets without a stall: every sheet's buffer is
+/// free before it is needed, so the words of sheet s+1 come three cycles after those of sheet s.
 std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t seed, int dimming = 4) {
   const oracle::Symbols c = symbols_of(config);
   Random random(seed);
@@ -76,8 +75,8 @@ std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t s
 }
 
 /// Tiles of few splats, so that pixels do not freeze: windows on one place, on one beside it and on one far away, after
-/// 1 to 6 cycles, and across the tile's left and upper edge. In a device that composites every sample in its order,
-/// else by sheets.
+/// 1 to 6 cycles, and across the tile's left and upper edge. Composited sample by sample if the device can, else by
+/// sheets.
 std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_t seed) {
   const oracle::Symbols c = symbols_of(config);
   constexpr std::uint32_t kTiles = 40;
@@ -110,9 +109,9 @@ std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_
   return to_beats(w.bytes());
 }
 
-/// Tiles of which sheets make whole blocks opaque at once, three of four one block wide, where a table that waits
-/// begins in the cycle behind the one before it, in the block that is being put. Sets without splats, and splats, ask
-/// about what was frozen. Devices that do not cull get the splats alone.
+/// Tiles in which sheets make whole blocks opaque at once, three of four one block wide. A waiting table begins in the
+/// cycle after the one before it, in the block that is being put. Groups without splats, and splats, are tested against
+/// the frozen blocks. Devices without culling get the splats alone.
 std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64_t seed) {
   const oracle::Symbols c = symbols_of(config);
   constexpr std::uint32_t kTiles = 120;
@@ -130,8 +129,8 @@ std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64
     w.begin_tile(0, tile, 0, c.H * static_cast<int>(tile), width, c.H);
     for (std::uint32_t sheet = 0; sheet < 8; ++sheet) {
       w.begin_sheet(sheet);
-      // The first freezes, the second, long enough for the first's table to be whole, the last row of blocks alone;
-      // behind it comes a short one, whose table waits and begins there; those behind ask.
+      // The first freezes. The second, long enough for the first's table to be whole, freezes the last row of blocks
+      // alone. Behind it comes a short one, whose table waits and begins there; the later ones are tested.
       const std::int64_t splats = sheet == 0   ? random.between(1, 2)
                                   : sheet == 1 ? random.between(1, 24)
                                   : sheet == 2 ? random.between(0, 1)

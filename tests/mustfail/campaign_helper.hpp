@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the device with one fault through verify() and says who saw it first.
+// Runs the device with one fault through verify() and returns the first detector.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace fastsplat::test {
 using Fault = testbench::RtlFault;
 using testbench::Assertions;
 
-/// Those of testbench::Detector, in its order, then how a simulation may end.
+/// The detectors of testbench::Detector, in its order, then the ways in which a simulation may end.
 enum class Detector {
   Snap,
   Footprint,
@@ -50,7 +50,7 @@ constexpr Stimulus kStimuli[] = {Stimulus::Random,     Stimulus::HotSpot,     St
                                  Stimulus::HotSamples, Stimulus::EarlyFreeze, Stimulus::WarmReset};
 const char* to_string(Stimulus stimulus);
 
-/// Who noticed, and what it said.
+/// The detector, and its message.
 struct Caught {
   Detector by = Detector::Other;
   std::string report;
@@ -62,10 +62,10 @@ struct Outcome {
 
 using MakeDevice = std::function<std::unique_ptr<testbench::RtlDevice>(const cmodel::Config&, cmodel::PixelSink&,
                                                                        const testbench::RtlOptions&)>;
-/// Until the first detector speaks or the stimulus ends.
+/// Until the first detector reports or the stimulus ends.
 Outcome run(const cmodel::Config& config, Stimulus stimulus, const MakeDevice& make);
 
-/// The device that can be broken. With assertions on, one that fires ends the run with Detector::Assertion.
+/// The device with faults. With assertions on, a failing one ends the run with Detector::Assertion.
 inline MakeDevice faulty(Fault fault, Assertions assertions) {
   return [=](const cmodel::Config& config, cmodel::PixelSink& pixels, const testbench::RtlOptions& options) {
     return testbench::make_breakable_device(config, pixels, options, fault, assertions);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device that culls, whole and with its assertions on: every event in the cycle model's cycle, every tap the
-// model's. The device is that of the must-fail suite with no fault selected.
+// The culling device, whole and with its assertions on: every event in the cycle model's cycle, every tap the model's.
+// It is the device of the must-fail suite without a selected fault.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,7 @@ using testbench::Pattern;
 cmodel::Config culling() { return named_config(std::string("faults/") + testbench::kBreakableCull); }
 
 // Windows in their cycles, none of them hidden (M-cull-6, M-cull-7); sheets that wait for tables (M-cull-3, M-cull-4,
-// M-cull-8, M-cull-9, M-cull-10, M-cull-12); what is counted of both (M-register-17).
+// M-cull-8, M-cull-9, M-cull-10, M-cull-12); the counters of both (M-register-17).
 TEST(Culling, EachEventHappensInItsCycle) {
   const cmodel::Config config = culling();
   Random random(seed_or(97));
@@ -68,8 +68,8 @@ TEST(Culling, RandomStreamsOfEveryClass) {
   EXPECT_EQ(result.total.check.mismatches, 0U);
 }
 
-// Frames behind each other as well, whose sets are hidden, sent (M-cull-14) and left out (S-cull-9, S-cull-10,
-// M-cull-15); tiles that end while a table is built (M-cull-11).
+// Successive frames as well, whose groups are hidden, sent (M-cull-14) and omitted (S-cull-9, S-cull-10, M-cull-15);
+// tiles that end while a table is built (M-cull-11).
 TEST(Culling, RefusesTheSameConfigurationsAsTheModel) {
   const cmodel::Config config = culling();
   const auto result =

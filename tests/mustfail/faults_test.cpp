@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every fault of faults.def is seen by its named detector, and by that one first; the healthy device passes the same
-// stimuli.
+// Every fault of faults.def is first seen by its named detector; the healthy device passes the same stimuli.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,7 +13,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Beside configs/, which holds the products only.
+/// Beside configs/, which holds only the products.
 std::string config_of(const char* fault) {
   return std::string("faults/") + breakable_config(testbench::planted_fault_from(fault));
 }
@@ -36,7 +35,7 @@ constexpr Row kRows[] = {
 #include "testbench/faults/faults.def"
 #undef FAULT
 };
-/// The least that a suite of injected faults is worth having for.
+/// Minimum size of a suite of injected faults.
 constexpr std::size_t kFewestFaults = 12;
 static_assert(std::size(kRows) >= kFewestFaults);
 
@@ -58,7 +57,7 @@ TEST_P(MustFail, IsCaughtByItsAssertion) {
   const Outcome outcome = run(named_config(config_of(row.name)), row.stimulus, faulty(row.fault, Assertions::On));
   ASSERT_TRUE(outcome.caught.has_value()) << "SURVIVED: " << row.meaning;
   if (row.assertion == kNone) {
-    // Whatever fires is right, but belongs into the table.
+    // Any detector is right, but must be listed in the table.
     EXPECT_STREQ(to_string(outcome.caught->by), to_string(row.detector)) << outcome.caught->report;
     return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults that `verify --fault` plants: each is seen by plain random streams, and lets itself be made small.
+// Faults that `verify --fault` plants: plain random streams show each, and each can be shrunk.
 #include "testbench/faults/planted_fault.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(PlantedFault, IsSeenByRandomStreams) {
     const auto result = testbench::run_campaign(options);
     ASSERT_TRUE(result.failed) << fault.name << " is not seen in " << result.streams << " streams";
     ++(rtl ? in_rtl : at_ports);
-    // What hangs the device ends as a simulation that failed; everything else is the checker's.
+    // Faults that hang the device end as a failed simulation; the checker reports all others.
     EXPECT_EQ(result.total.verdict,
               std::string(fault.name) == "LOST_FREE" ? testbench::Verdict::Simulation : testbench::Verdict::Mismatch)
         << fault.name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device whose weights lie between entries of its radial table, and that classifies densities by pixel, whole and
-// with its assertions on: every event in the cycle model's cycle, every word the model's. The device is that of the
-// must-fail suite with no fault selected.
+// The device that interpolates its radial table and classifies densities by pixel, whole and with its assertions on:
+// every event in the cycle model's cycle, every word the model's. It is the device of the must-fail suite without a
+// selected fault.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -83,7 +83,7 @@ testbench::MakeDevice whole() {
   };
 }
 
-// Frames as the driver sends them: tiles that meet, sheets that are missing (M-density-9), perspective.
+// Frames as the driver sends them: adjacent tiles, missing sheets (M-density-9), perspective.
 TEST(PostClassified, FramesEqualTheModel) {
   for (const bool perspective : {false, true}) {
     scene::SceneDescription description;
@@ -113,8 +113,8 @@ TEST(PostClassified, FramesEqualTheModel) {
 }
 
 // Tables of densities and their words (N-6.2-6, S-table-11, S-table-12), tiles (N-6.2-3, S-tile-1, S-tile-3) and sheets
-// (S-tile-7) beside what is legal: refused for the model's rule. Tiles of densities that are cut short end in the cycle
-// model's cycles (M-density-13, M-density-18).
+// (S-tile-7) just outside the legal range: refused by the model's rule. Density tiles that are cut short end in the
+// cycle model's cycles (M-density-13, M-density-18).
 TEST(PostClassified, RefusesTheSameConfigurationsAsTheModel) {
   const auto result = testbench::check_refusals(post(), whole());
   testbench::expect_all(result);

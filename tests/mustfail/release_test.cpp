@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No device of a product holds a fault: the macro that puts them in is named for the one device that is made to be
-// broken, a simulation of its own.
+// Products contain no faults: the macro that enables them is named only for the device that is made to be broken, a
+// simulation of its own.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The device that composites every sample, whole and with its assertions on: every event in the cycle model's cycle,
-// and windows that wait as docs/microarchitecture.md says (M-hazard-3). The device is that of the must-fail suite with
-// no fault selected.
+// and windows wait as docs/microarchitecture.md requires (M-hazard-3). It is the device of the must-fail suite without
+// a selected fault.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -114,8 +114,8 @@ TEST(EverySample, WindowsWaitAsThePageSays) {
   for (int places = 1; places <= 6; ++places) {
     for (const int apart : {config.lanes - 1, config.lanes}) {
       const Measured measured = in_turn(config, places, apart);
-      // Those at one place, or a pixel too near, wait for the one before; but back at the first place, where others lie
-      // between.
+      // Windows at one place, or a pixel too near, wait for the previous one; windows back at the first place, with
+      // others between, do not.
       std::uint64_t waits = 0;
       for (std::uint64_t i = 1; i < measured.windows; ++i) {
         const auto at = [&](std::uint64_t n) { return static_cast<int>(n) % places * apart; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which netlist a program holds is said by its CMakeLists: FASTSPLAT_NETLIST, and _CUT where there is one.
+// CMakeLists.txt selects the netlist of a program: FASTSPLAT_NETLIST, and _CUT if there is one.
 #include "tests/netlist/netlist_helper.hpp"
 
 #include "testbench/device/verilated_device.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chain of steps: all device is the integer model, all real is golden, and each step alone does what its page says.
+// The chain of steps: all device equals the integer model, all real equals golden, and each single step follows its
+// page.
 #include "analysis/pipeline/chain.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ scene::SceneDescription view_of(const std::string& volume, int size) {
   return description;
 }
 
-/// Views that take every way through the chain.
+/// Views that take every path through the chain.
 std::vector<scene::SceneDescription> views(int size) {
   std::vector<scene::SceneDescription> all;
   all.push_back(view_of("shells:24", size));
@@ -112,7 +113,7 @@ TEST(Chain, AllDeviceIsTheIntegerModelForEveryKindOfIndex) {
   EXPECT_GT(all.compared, 100000u);
 }
 
-/// Frames whose splats have shapes of their own, alone and together.
+/// Frames whose splats have individual shapes, alone and together.
 std::vector<scene::SceneDescription> shaped_views(int size) {
   std::vector<scene::SceneDescription> all;
   const auto view = [&]() -> scene::SceneDescription& {
@@ -199,7 +200,7 @@ TEST(Chain, AllRealIsGoldenFloatByFloat) {
   EXPECT_GT(all.compared, 100000u);
 }
 
-/// The same views with every sample composited by itself, once each, and configurations that do.
+/// The same views with every sample composited individually, once each, and configurations that can.
 std::vector<scene::SceneDescription> sampled(const std::vector<scene::SceneDescription>& views) {
   std::vector<scene::SceneDescription> all;
   for (scene::SceneDescription view : views) {

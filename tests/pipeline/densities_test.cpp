@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chain of frames whose sheets are densities: all device is the integer model's words, all real is golden's
-// picture, and the real side of the pixel's steps is golden's stage.
+// The chain for frames whose sheets are densities: all device equals the integer model's words, all real equals
+// golden's picture, and the real side of the pixel's steps equals golden's stage.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ cmodel::Config with_densities(const std::string& name) {
   return config;
 }
 
-/// What the frames compared were.
+/// Properties of the compared frames.
 struct Frames {
   std::uint64_t frames = 0, words = 0, different = 0, lit = 0, dark = 0;
   std::uint64_t in_tiles = 0, perspective = 0, additive = 0, shaded = 0, carried = 0, ellipses = 0, interpolated = 0;
@@ -44,7 +44,7 @@ struct Frames {
   }
 };
 
-/// With the function's own gradient floor and with floors that many pixels are near, in turn.
+/// With the function's own gradient floor, and with floors near many pixels, in turn.
 scene::Scene scene_of(const scene::SceneDescription& description, std::uint64_t number) {
   scene::Scene scene = scene::build_scene(description);
   scene.shading.gradient_floor *= static_cast<double>(1U << number % 6);
@@ -119,7 +119,7 @@ TEST(DensityChain, AllDeviceIsTheIntegerModelForEveryKindOfIndex) {
   EXPECT_GT(all.lit, all.words / 20);
 }
 
-/// Views that take every way through golden's stage.
+/// Views that take every path through golden's stage.
 std::vector<scene::SceneDescription> views(int size) {
   std::vector<scene::SceneDescription> all;
   for (scene::SceneDescription& description : small_density_scenes()) {

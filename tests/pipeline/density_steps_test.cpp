@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a pixel of densities by themselves: their device side is the integer model's unit on any words, their
-// real side golden's stage.
+// The steps of a density pixel alone: their device side equals the integer model's unit on any words, their real side
+// equals golden's stage.
 #include "analysis/pipeline/density_steps.hpp"
 
 #include <gtest/gtest.h>
@@ -88,9 +88,9 @@ TEST(DensitySteps, TheDevicesSideIsTheModelsUnitOnAnyWords) {
   EXPECT_GT(shaded, 200u);
 }
 
-/// Golden's stage works in floats behind the gradient. In units of 2^-24, a float's rounding: components 1, the length
+/// Golden's stage works in floats after the gradient. In units of 2^-24, a float's rounding: components 1, the length
 /// 4, a share of shading 2 (4 + 2) = 12 as lengths are up to twice the floor; a normal 6, a cosine 10, times diffuse
-/// and 3 more what is matt; a power of it 10 shininess + 2; mixing what differs by 1.3 at most, 6 more.
+/// and 3 more for the matt part; a power of it 10 shininess + 2; mixing values that differ by 1.3 at most, 6 more.
 double float_bound(const scene::Shading& shading) {
   return std::ldexp(
       12.0 * 1.3 + 10.0 * shading.diffuse + 3.0 + shading.specular * (10.0 * shading.shininess + 2.0) + 6.0, -24);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of mixtures are made of: small scenes, random and given ones, and random mixtures.
+// Inputs of the tests of mixtures: small scenes, random and given ones, and random mixtures.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ scene::SceneDescription random_density_scene(fastsplat::test::Random& random);
 /// Three such scenes.
 std::vector<scene::SceneDescription> small_density_scenes();
 
-/// Of few steps, of half of them, of nearly all; those of densities among them only if asked for.
+/// Mixtures of few steps, of half of them, of nearly all; those of densities only on request.
 Mixture random_mixture(fastsplat::test::Random& random, bool densities = false);
 
-/// All keys, to have a configuration again.
+/// All keys, to reproduce a configuration.
 std::string text_of(const cmodel::Config& config);
 
 }  // namespace fastsplat::stages::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mixtures of steps against a second implementation of their page (tests/pipeline/oracle): at random, and step by step.
+// Mixtures of steps against a second implementation of their page (tests/pipeline/oracle): random ones, and step by
+// step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,21 +23,21 @@ using fastsplat::test::random_density_config;
 using test::random_density_scene, test::random_mixture, test::random_scene, test::small_density_scenes,
     test::small_scenes, test::text_of;
 
-/// What two orders of the same sums may differ by: some thousand terms at a pixel, n 2^-53 of a sum of n, and as much
-/// again for the steps behind. Where a rounding hangs on that a word may differ: oracle::Closeness says at which
+/// The difference between two orders of the same sums: thousands of terms at a pixel, n 2^-53 of a sum of n, and as
+/// much again for the later steps. A word may differ if its rounding depends on that: oracle::Closeness marks these
 /// pixels.
 constexpr double kBound = 1e-12;
 
-/// Of densities, where all steps are real, golden itself draws them: in floats behind the gradient
-/// (density_steps_test.cpp counts what that takes, 110 2^-24 of the most that shows).
+/// For densities with only real steps, golden draws them: in floats after the gradient (density_steps_test.cpp derives
+/// the bound, 110 2^-24 of the largest visible value).
 constexpr double kGoldensFloats = 1e-5;
 
 struct Figures {
   std::uint64_t mixtures = 0, values = 0, close = 0;
-  std::uint64_t over = 0;          ///< beyond the bound where nothing explains it
+  std::uint64_t over = 0;          ///< beyond the bound without an explanation
   std::uint64_t lit = 0;           ///< values that are not 0
   std::uint64_t floats = 0;        ///< mixtures that golden draws in floats
-  std::uint64_t over_at_edge = 0;  ///< beyond it at a pixel that hangs on the last bits of a double
+  std::uint64_t over_at_edge = 0;  ///< beyond it at a pixel that depends on the last bits of a double
   double largest = 0.0;            ///< of all others
 
   void print(const char* what) const {
@@ -82,7 +83,7 @@ void compare(const scene::Scene& scene, const cmodel::Config& config, const Chai
                                        << scene::to_toml(scene.description);
 }
 
-/// The same scene with every sample composited by itself.
+/// The same scene with every sample composited individually.
 void sample(scene::SceneDescription& description) {
   description.method = scene::Method::Westover;
   description.slab_width = scene::SceneDescription{}.slab_width;
@@ -90,7 +91,7 @@ void sample(scene::SceneDescription& description) {
   description.xray_exposure = 0.0;
 }
 
-/// What the random mixtures have met.
+/// Cases that occurred in the random mixtures.
 struct Met {
   std::uint64_t drawn = 0, perspective = 0, xray_sheets = 0, carried = 0, light_carried = 0;
   std::array<std::uint64_t, 5> methods{};
@@ -187,7 +188,7 @@ TEST(Mixtures, OfDensitiesEachStepAloneAndAllButOne) {
     config.classify_segment_bits = 6;
     for (const scene::SceneDescription& description : small_density_scenes()) {
       scene::Scene scene = scene::build_scene(description);
-      scene.shading.gradient_floor = 0.1;  // such that many pixels are between it and twice that
+      scene.shading.gradient_floor = 0.1;  // chosen so that many pixels are between it and twice that
       const Chain chain(scene, config);
       for (const Step step : all_steps()) {
         compare(scene, config, chain, Mixture{step}, alone);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Narrowing of doubles: on words it is the device's.
+// Narrowing of doubles: on words it equals the device's.
 #include "analysis/pipeline/real_narrowing.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built program as a user meets it: arguments in, stdout, stderr, exit code and files out.
+// The built program as a user runs it: arguments in; stdout, stderr, exit code and files out.
 #pragma once
 
 #include <sys/resource.h>
@@ -41,7 +41,7 @@ struct Surroundings {
   std::optional<std::string> stdout_to;  ///< a path instead of the captured pipe
   bool stdin_closed = false, stdout_closed = false, stderr_closed = false;
   int stop_reading_after = -1;  ///< closes the stdout pipe after this many bytes, as `| head` does
-  int signal = 0;               ///< sent once `when` says so
+  int signal = 0;               ///< sent once `when` returns true
   std::function<bool(pid_t)> when;
 };
 
@@ -54,7 +54,7 @@ struct Result {
 
 /// Runs `words` (the program first) to its end, at most two minutes.
 Result run_words(const std::vector<std::string>& words, const Surroundings& surroundings = {});
-/// True once the process handles `signal` itself: before that, any signal simply ends it.
+/// True once the process handles `signal`: before that, any signal ends it.
 bool handles_signal(pid_t process, int signal);
 /// The fastsplat of this build.
 Result fastsplat(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a report: what they stand for, which are one, what is cropped to fit.
+// Pictures of a report: what they stand for, which are identical, and how they are cropped.
 #include "report/album.hpp"
 
 #include <gtest/gtest.h>
@@ -122,7 +122,7 @@ TEST_F(Pictures, AResultsPicturesAreFoundBesideIt) {
   EXPECT_NE(album.missing[0].find("gone.exr"), std::string::npos);
 }
 
-/// Two files of one name: which is the reference is told by the compare's place, not by the name.
+/// Two files of one name: the compare's order decides which is the reference, not the name.
 TEST_F(Pictures, NameTheirSideAndCompare) {
   std::filesystem::create_directory(folder_ / "a");
   std::filesystem::create_directory(folder_ / "b");
@@ -159,7 +159,7 @@ TEST_F(Pictures, NameTheirSideAndCompare) {
   EXPECT_EQ(data["pictures"][0]["group"], data["pictures"][1]["group"]) << "pictures of one compare are seen together";
 }
 
-/// A scene of Gaussians is no volume's: the two are not to be compared, nor two views of one cloud.
+/// A scene of Gaussians is not one of a volume: the two are not compared, nor are two views of one cloud.
 TEST_F(Pictures, OfGaussiansAreAGroupByTheirView) {
   const auto cloud = [&](const char* name, const char* view, unsigned seed) {
     return named("golden",

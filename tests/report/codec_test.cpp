@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes into the page comes out of it: planes and deflate undone here by other means, base64 by its standard.
+// The page's data decode to their source: planes and deflate decoded independently, base64 by its standard.
 #include "report/codec.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::string inflated(const std::string& bytes, std::size_t size) {
   return out;
 }
 
-/// As docs/report.md tells it, row by row.
+/// As in docs/report.md, row by row.
 std::vector<std::int64_t> decoded(const std::string& bytes, int width, int height, int channels, int word_bytes,
                                   bool has_sign) {
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report that is sent on names files, not the folders and people of the machine that made it.
+// A report to be sent names files, not the folders and users of the machine.
 #include "report/file_names.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(FileNames, EqualNamesOfTwoFoldersAreDisambiguated) {
   EXPECT_EQ(cut["test"], "folder-2/out.exr");
 }
 
-/// A shell's quotes within quotes are no other folder.
+/// A shell's quotes within quotes are not another folder.
 TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
   const Json data{{"command", "fastsplat compare '/home/O'\\''Neil/a.exr' '/home/O'\\''Neil/b.exr'"},
                   {"file", "/home/O'Neil/b.exr"}};
@@ -71,7 +71,7 @@ TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
   EXPECT_EQ(without_folders(data)["file"], "b.exr");
 }
 
-/// A message does not quote its files; other texts tell where such a path ends.
+/// A message does not quote its files; the text around a path shows where it ends.
 TEST(FileNames, FoldersWithBlanksLeaveMessagesToo) {
   const Json data{{"file", "/home/jane doe/a.exr"}, {"remark", "cannot open /home/jane doe/b.exr: no such file"}};
   EXPECT_EQ(without_folders(data)["remark"], "cannot open b.exr: no such file");

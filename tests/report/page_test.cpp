@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Injection: whatever the results hold, the page stays a page and its data the same values.
+// Injection: with any results, the page stays a page and its data keep their values.
 #include "report/page.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each subcommand's result gets its sentence; any other file is one error line.
+// Each subcommand's result gets its sentence; any other file gives one error line.
 #include "report/results.hpp"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST_F(Results, VerifyPrintsWhatWasCompared) {
   EXPECT_EQ(verdict(json).status, Status::Error);
 }
 
-/// Of 3-D Gaussians there is no scene with a volume: such a result was taken for a damaged one.
+/// A result of 3-D Gaussians has no scene with a volume: it used to be refused as damaged.
 TEST_F(Results, RendersOfVolumesAndOfGaussiansPrintTheirSize) {
   Json json{
       {"verb", "render"}, {"engine", "golden"}, {"scene", {{"volume", "shells:8"}, {"width", 64}, {"height", 48}}}};

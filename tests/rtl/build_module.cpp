@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// build_rtl_module FOLDER CONFIG [wave] [faults]: builds a configuration's module of RTL into FOLDER, unless it is
-// there.
+// build_rtl_module FOLDER CONFIG [wave] [faults]: builds a configuration's module of RTL into FOLDER, unless it exists.
 #include <cstdio>
 #include <string>
 

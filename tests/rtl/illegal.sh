@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# illegal.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: a package whose numbers do not fit stops Verilator and Yosys, with the numbers.
+# illegal.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: a package with illegal numbers stops Verilator and Yosys with a message
+# that names them.
 set -eu
 emit=$1 source=$2 work=$3
 mkdir -p "$work"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Usage: lint_edges.sh EMIT SOURCE_ROOT SCRATCH
-# Configurations at the ends of what the RTL allows: Verilator reads each with all its warnings on and has none.
-# (array.lanes = 32 has none either, but takes Verilator 100 s.)
+# Configurations at the limits of the RTL: Verilator reads each with all warnings on and prints none. (array.lanes = 32
+# is clean too, but takes Verilator 100 s.)
 set -euo pipefail
 emit=$1 root=$2 scratch=$3
 mkdir -p "$scratch"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# read.sh CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: both tools accept rtl/ with the package of CONFIG.
-# Verilator -Wall without a word; Yosys reads every module, elaborates the device, and `check -assert` finds nothing.
+# read.sh CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: both tools accept rtl/ with the package of CONFIG. Verilator -Wall
+# prints nothing. Yosys reads every module, elaborates the device, and `check -assert` finds nothing.
 set -eu
 config=$1 emit=$2 source=$3 work=$4
 mkdir -p "$work"
@@ -15,7 +15,7 @@ verilator --lint-only -Wall --assert --top-module fastsplat_top "-I$source/rtl" 
 yosys -q -l "$work/yosys.log" -p "read_verilog -sv -I$source/rtl $work/fastsplat_pkg.sv $source/rtl/*.sv $source/rtl/*/*.sv; hierarchy -check -top fastsplat_top; proc; opt_clean; check -assert; tee -o $work/stat.txt stat" >/dev/null 2>&1 ||
   { tail -20 "$work/yosys.log"; echo "$config: Yosys refuses the RTL"; exit 1; }
 
-# M-reset-1: the reset is synchronous. Yosys makes these cells of registers that a reset changes between clock edges.
+# M-reset-1: the reset is synchronous. Yosys makes these cells for registers that a reset changes between clock edges.
 ! grep -q '\$\(adff\|aldff\|dffsr\)' "$work/stat.txt" || { echo "$config: the device has asynchronously reset registers"; exit 1; }
 
 # Every module of rtl/ must be in the elaborated design, as itself or with parameters.

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# read_fetch.sh SOURCE_DIR WORK_DIR: the tools accept rtl/io as it is by default and at the ends of its parameters, and refuse what lies beyond.
+# read_fetch.sh SOURCE_DIR WORK_DIR: the tools accept rtl/io with its defaults and at the ends of its parameters, and
+# refuse values beyond.
 set -eu
 source=$1 work=$2
 mkdir -p "$work"
@@ -11,7 +12,7 @@ for given in "" "-GBURST=1 -GDEPTH_LOG2=1 -GOUTSTANDING=2 -GSETS_LOG2=1 -GADDRES
   lint $given || { cat "$work/lint.log"; echo "read_fetch.sh: Verilator refuses '$given'"; exit 1; }
   read=$((read + 1))
 done
-# M-fetch-23: the defaults and the ends of the ranges above are taken, what lies beyond is not.
+# M-fetch-23: the defaults and the ends of the ranges above are accepted, values beyond are refused.
 refused=0
 for given in -GBURST=0 -GBURST=129 "-GBURST=16 -GDEPTH_LOG2=3" -GOUTSTANDING=1 -GOUTSTANDING=2000 -GADDRESS_BITS=15 -GADDRESS_BITS=65 -GSETS_LOG2=0 -GSETS_LOG2=32 "-GBURST=1 -GDEPTH_LOG2=0" -GDEPTH_LOG2=17; do
   if lint $given; then echo "read_fetch.sh: takes '$given'"; exit 1; fi

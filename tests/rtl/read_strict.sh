@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# read_strict.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: every file of rtl/ is a compilation unit of its own. It includes what it uses, uses no name before
-# its declaration, and has no implicit net. Read by Icarus (-u), Verilator and Yosys, for configurations that have every feature between them.
+# read_strict.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: every file of rtl/ is its own compilation unit. It includes all files
+# that it uses, uses no name before its declaration, and has no implicit net. Read by Icarus (-u), Verilator and Yosys,
+# for configurations that together have every feature.
 set -eu
 emit=$1 source=$2 work=$3
 mkdir -p "$work"

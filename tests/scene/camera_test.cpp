@@ -56,7 +56,7 @@ TEST(Camera, AxesAreRightHandedUnitVectors) {
 TEST(Camera, ProjectAndRayAgree) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  // A dozen roundings of numbers up to the image's size and the eye's distance.
+  // About ten roundings of numbers up to the image's size and the eye's distance.
   const double limit = 100.0 * 1000.0 * 0x1p-53;
   double worst_pixel = 0.0;
   double worst_depth = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes together: each refusal by its key, in one line with a way out; what means nothing where; what of it a file
-// may say.
+// Compatible settings: each refusal names its key, in one line with a fix; settings without effect; settings that a
+// file may hold.
 #include "scene/capability.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ auto starts_idle(const std::string& name) {
   return AnyOf(StartsWith(name + " does not apply to "), StartsWith(name + " has no effect without "));
 }
 
-/// A setting says where it has a meaning, or is no setting.
+/// Every setting states where it has an effect.
 template <class T>
 concept MadeWithoutCapability = requires {
   T{"", "", "", "", "", "", Switch{nullptr}};
@@ -233,7 +233,7 @@ class IdleKeys : public TemporaryFolder {
 
 TEST_F(IdleKeys, AreRefusedLikeTheirFlagsWithTheirPlace) {
   int checked = 0;
-  // Every setting that can be idle in a plain scene of some method, there.
+  // Every setting that can be idle in a plain scene of some method, in that scene.
   for (const Setting& setting : settings()) {
     for (const std::string& method : method_names()) {
       SceneDescription d;

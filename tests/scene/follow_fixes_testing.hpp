@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A setting with whatever else it needs to have a meaning, found as a user would: by doing what each refusal says.
+// A setting, with the further settings that it needs to have an effect, found as a user would: by following the
+// refusals' fixes.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,7 @@ inline void apply(const Setting& setting, const std::string& text, SceneDescript
   set_from_text(setting, text, description);
 }
 
-/// What a refusal's fix names first: a setting and its value. An engine stays what it is, and so may the method.
+/// The first fix of a refusal: a setting and its value. The engine does not change; the method may be fixed too.
 inline std::optional<std::pair<const Setting*, std::string>> fix_of(const ErrorParts& refused, bool method_stays) {
   if (refused.fix.find("--perspective") != std::string::npos)
     return {{&setting_of("camera.projection"), "perspective"}};
@@ -37,7 +38,7 @@ inline std::optional<std::pair<const Setting*, std::string>> fix_of(const ErrorP
   return std::nullopt;
 }
 
-/// A scene in which the setting, at its probe, is accepted; or the refusal without a way out.
+/// A scene in which the setting, at its probe value, is accepted; or the refusal without a fix.
 struct Followed {
   SceneDescription with, without;
   std::vector<std::string> refusals;  ///< on the way

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of 3-D Gaussians that lie about their size or their properties. One line each, exit code 3.
+// Files of 3-D Gaussians with false sizes or properties. One line each, exit code 3.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -126,7 +126,7 @@ TEST_P(GaussianDamage, IsOneLine) {
   }
 }
 
-// Every file cut anywhere is refused, or was whole to begin with; nothing else happens.
+// Every cut file is refused, or was complete; no other outcome.
 TEST(GaussianDamage, CutAnywhere) {
   int refused = 0;
   for (const std::string& whole : {ascii(), binary()}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of 3-D Gaussians that are sound: every format and order of properties, there and back, and those that ship.
+// Valid files of 3-D Gaussians: every format and order of properties, round trips, and the shipped files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST(GaussianPly, EveryFormatTypeAndDegree) {
 TEST(GaussianPly, PropertiesInAnyOrderAndOthersBetween) {
   const GaussianCloud cloud = make_synthetic_gaussians("cloud:40");
   PlyTable table = table_of(cloud);
-  // Backwards, with two properties that nobody asked for.
+  // In reverse, with two unused properties.
   std::ranges::reverse(table.names);
   table.names.insert(table.names.begin() + 5, "confidence");
   table.names.push_back("label");
@@ -120,7 +120,7 @@ TEST(SplatFile, WrittenAndReadAgain) {
   EXPECT_LT(turn, 2.0 / 128.0);
   EXPECT_LE(opacity, 0.5 / 255.0 + 1e-6);
   EXPECT_LE(colour, 0.5 / 255.0 + 1e-6);
-  // What bytes hold, they hold again.
+  // A byte read and written again is unchanged.
   const std::string first = bytes_of(file.path());
   save_gaussians(read, file.path());
   EXPECT_LT(difference(load_gaussians(file.path()), read), 2.0 / 128.0);
@@ -170,7 +170,7 @@ TEST(SyntheticGaussians, AreTheSameUnderEveryCompiler) {
   }
 }
 
-// The files that ship are what the generator makes: another look or another compiler's last bit shows here.
+// The shipped files equal the generator's output: another design or another compiler's last bit shows here.
 TEST(SyntheticGaussians, TheFilesThatShipAreTheirs) {
   const std::filesystem::path folder = std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "docs/examples/gaussians";
   const GaussianCloud shells = make_synthetic_gaussians("shells:150"), cloud = make_synthetic_gaussians("cloud:200");

@@ -36,9 +36,9 @@ struct PlyTable {
   PlyTable without(const std::string& name) const;
   PlyTable and_of(const std::string& name, double value) const;
 };
-/// The text with `to` for `from`, which is there.
+/// The text with `from`, which must exist, replaced by `to`.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
-/// What a trainer would write of it.
+/// The properties that a trainer writes for it.
 PlyTable table_of(const GaussianCloud& cloud);
 
 /// The largest difference of any number, relative to 1 or to itself where it is larger.

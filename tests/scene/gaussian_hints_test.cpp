@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file says of its Gaussians beside their numbers is followed, or said.
+// Declarations about Gaussians beside their numbers are followed, or reported.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(GaussianHints, VerticalAxis) {
       {{"Up Axis: Z-up"}, UpAxis::Z},
       {{"Vertical axis: 0 0 1"}, UpAxis::Z},
       {{"Vertical axis: [0.0, -1.0, 0.0]"}, UpAxis::MinusY},
-      // Brush's frames have y down, and its plain y says no more than that.
+      // Brush's frames have y down; its plain y means only that.
       {{"Exported from Brush", "Vertical axis: y"}, UpAxis::MinusY},
       {{"Exported from Brush", "Vertical axis: 0 1 0"}, UpAxis::Y},
       // Without a colon.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may stand around the rows of a PLY, and files of other formats than PLY and .splat.
+// Text around the rows of a PLY, and files of formats other than PLY and .splat.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -47,7 +47,7 @@ TEST(GaussianLayout, CommentsAnywhereAndBothLineEnds) {
   }
 }
 
-// A comment may be long, and an element without properties may promise any number of rows.
+// A comment may be long, and an element without properties may declare any number of rows.
 TEST(GaussianLayout, LongCommentsAndRowsOfNothing) {
   for (const std::string format : kPlyFormats) {
     const std::string lines = "comment " + std::string(100'000, 'x') + "\nelement none 18446744073709551615\n";
@@ -66,7 +66,7 @@ TEST(GaussianLayout, EmptyBytesBehindTheLastRowArePassedOver) {
       EXPECT_LT(difference(read, whole), 1e-6) << format;
       EXPECT_THAT(read.remarks, ElementsAre()) << format;
     }
-    // As many as a row and more are said; bytes that say something are not passed over.
+    // Surplus bytes are reported if they are a row or more; meaningful bytes are not skipped.
     const TestFile padded(".ply", twelve(format) + std::string(4096, '\0'));
     const GaussianCloud read = load_gaussians(padded.path());
     EXPECT_EQ(read.gaussians.size(), 12U);
@@ -78,7 +78,7 @@ TEST(GaussianLayout, EmptyBytesBehindTheLastRowArePassedOver) {
   }
 }
 
-// Elements behind the vertices belong to the file: it ends behind them, and not before.
+// Elements after the vertices belong to the file: it ends after them.
 TEST(GaussianLayout, ElementsBehindTheVerticesAreCounted) {
   const std::string others =
       "element extrinsic 2\nproperty float extrinsic\nelement version 3\nproperty uchar version\n";
@@ -159,7 +159,7 @@ TEST(OtherFormats, AreNamedByContentAndByEnding) {
   }
 }
 
-// A PLY is one whatever it is called: read as .splat it would be noise.
+// A PLY is one under any name: read as .splat it would be noise.
 TEST(OtherFormats, PlyIsReadUnderAnyName) {
   for (const char* ending : {".splat", ".txt", ".PLY", ""}) {
     const TestFile file(ending, twelve("binary_little_endian"));
@@ -167,7 +167,7 @@ TEST(OtherFormats, PlyIsReadUnderAnyName) {
   }
 }
 
-// A file that is not there is missing, whatever its ending says.
+// A missing file is reported missing, whatever its ending.
 TEST(OtherFormats, MissingFilesAreMissing) {
   for (const char* name : {"there-is-none.spz", "there-is-none.ply", "there-is-none.splat"})
     EXPECT_THAT([&] { load_gaussians(name); }, ::testing::ThrowsMessage<UserError>(HasSubstr("no such file"))) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compressed PLY as SuperSplat writes it: packed here by another rule than it is read by, and read to within its steps.
+// Compressed PLY as SuperSplat writes it: packed here by an independent rule, and read to within its steps.
 #include <gtest/gtest.h>
 
 #include <bit>

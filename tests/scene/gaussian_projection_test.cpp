@@ -94,7 +94,7 @@ TEST(GaussianProjection, LowPassIsAddedAndOpacityCapped) {
   EXPECT_NEAR(a.q(std::sqrt(a.shape.xx), 0.0), a.shape.xx * a.shape.yy / a.shape.determinant(), 1e-12);
 }
 
-// Whichever axis of the file is said to be up is up in the picture, and no turn is a mirror.
+// The axis that the file declares as up is up in the picture, and no turn is a mirror.
 TEST(GaussianProjection, UpIsUp) {
   for (const UpAxis up : {UpAxis::X, UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ}) {
     GaussianCloud cloud = make_synthetic_gaussians("cloud:3");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaussians that cannot be drawn are dropped, counted and named; a file in which none is left is refused.
+// Gaussians that cannot be drawn are dropped, counted and named; a file without any valid one is refused.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -31,7 +31,7 @@ struct BadRow {
   const char* fault;
 };
 
-// The others are what they are without it.
+// The others do not change.
 TEST(GaussianRows, BadOnesAreDroppedAndNamed) {
   const GaussianCloud whole = make_synthetic_gaussians("shells:12");
   GaussianCloud others = whole;

@@ -22,7 +22,7 @@ class SceneFile : public TemporaryFolder {
   }
 };
 
-/// Nothing at its default, of what the method reads.
+/// No key at its default, only keys that the method reads.
 SceneDescription unusual(Method method) {
   SceneDescription d;
   d.volume = "marschner-lobb:17";

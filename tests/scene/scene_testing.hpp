@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of scene/ share: the helpers of scene/volume/'s tests under scene's name.
+// Shared by the tests of scene/: the helpers of scene/volume/'s tests under scene's name.
 #pragma once
 
 #include "tests/volume/volume_testing.hpp"

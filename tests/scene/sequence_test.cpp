@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings over time: which value a frame gets, and what a [sequence] table may not say.
+// Settings over time: the value of each frame, and invalid [sequence] tables.
 #include "scene/sequence.hpp"
 
 #include <gtest/gtest.h>

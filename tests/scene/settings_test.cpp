@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of settings: limits, flags, scene.toml, for whatever the list holds.
+// The list of settings: limits, flags, scene.toml, for every setting in the list.
 #include "scene/settings.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,8 @@ TEST(Settings, LimitsAreCheckedForDescriptionsAndFlags) {
 }
 
 TEST_F(SavedSettings, EveryOneComesBackFromItsFlagAndFromTheSavedScene) {
-  // Each setting changed by its text, in a scene where it means something; saved, read again: equal setting by setting.
+  // Each setting changed by its text, in a scene where it has an effect; saved and read again: equal setting by
+  // setting.
   const SceneDescription plain;
   int changes = 0;
   for (const Setting& setting : settings()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one plan of sheets: what becomes of a splat, how many sheets, and where they lie.
+// The one plan of sheets: the sheets of a splat, their number, and their places.
 #include "scene/sheet_plan.hpp"
 
 #include <gtest/gtest.h>

@@ -42,7 +42,7 @@ TEST(SolidField, StaysWithinZeroAndOneAndUsesMostOfIt) {
 
 TEST(SolidField, SmoothKindsHaveTheGradientTheySay) {
   // A step of 1e-3 along a direction changes the field by the gradient's share. The gradient is a difference over 1/64,
-  // which blunts what is steep (marble's veins) and rounds the kinks of the wood's rings: 10 % in the mean.
+  // which blunts steep parts (marble's veins) and rounds the kinks of the wood's rings: 10 % in the mean.
   constexpr double kStep = 1e-3;
   for (const SolidKind kind : kKinds) {
     if (kind == SolidKind::Checker) continue;
@@ -83,8 +83,7 @@ TEST(GradientNoise, IsZeroOnTheLatticeAndSmoothBetween) {
   EXPECT_LE(jump, 1e-8);
 }
 
-// N-8-108.
-// The same everywhere: eight values worked out apart from this program (Python integers and doubles).
+// N-8-108. The same on every platform: eight values computed independently (Python integers and doubles).
 TEST(GradientNoise, IsTheSameEverywhere) {
   EXPECT_NEAR(gradient_noise({9.83, 19.34, 23.62}), 0.495765109326027, 1e-13);
   EXPECT_NEAR(gradient_noise({35.4, 19.19, 33.79}), 0.17870459311794, 1e-13);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shapes footprints: the lens's circle of confusion, and settings that make no sense together.
+// Techniques that shape footprints: the lens's circle of confusion, and contradictory settings.
 #include "scene/techniques.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(Techniques, MotionStaysInFrontOfTheEye) {
 }
 
 // c(z) = A f |z - zf| / (z (zf - f)) on a film at the image's distance zi, 1/zi = 1/f - 1/zf, which spans the image:
-// whatever f is, that is A |s(z) - s(zf)| pixels (N-8-40).
+// for any f, that is A |s(z) - s(zf)| pixels (N-8-40).
 TEST(Techniques, CircleOfConfusionIsTheThinLens) {
   SceneDescription d = perspective();
   d.lens = {DepthOfField::Splats, 4.0, 1.5};

@@ -131,7 +131,7 @@ TEST(Classifier, AConstantVolumeCountsAsFull) {
   }
 }
 
-// Of whole numbers the ranks are found by counting, of others by sorting: the same voxels, the same percentiles.
+// Integers get their ranks by counting, other values by sorting: the same voxels, the same percentiles.
 TEST(Classifier, PercentilesAreTheSameCountedAndSorted) {
   TransferFunction tf = load_transfer_function("linear");
   tf.domain = Domain::Percentile;
@@ -219,7 +219,7 @@ TEST_F(TransferFunctionFile, RefusesWithLineColumnAndHint) {
               HasSubstr("tf.toml:3:11: shading.ambient: value out of range (expected a number in 0..1, got 2)"));
   EXPECT_THAT(refused(point + "[shading]\non = 1\n"), HasSubstr("true or false"));
   EXPECT_THAT(refused("points = []\n"), HasSubstr("missing or empty"));
-  // Hounsfield units, and the domain that nothing says.
+  // Hounsfield units, and the default domain.
   for (const std::string domain : {"", "domain = \"percentile\"\n"}) {
     EXPECT_THAT(refused(domain + "points = [{at = 40, colour = [0, 0.5, 1], opacity = 0}]\n"),
                 HasSubstr("got 40); write domain = \"value\""));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hounsfield units, background and percentiles: what padding and air do not change.
+// Hounsfield units, background and percentiles are independent of padding and air.
 #include "scene/value_range.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using volume::VoxelType;
 
-/// Noise of standard deviation 1, the same for a voxel whatever lies there: the sum of twelve even draws.
+/// Noise of standard deviation 1, fixed by the voxel's place: the sum of twelve even draws.
 double noise(int i, int j, int k) {
   std::uint32_t state = 1 + static_cast<std::uint32_t>(i + 64 * (j + 64 * k));
   double sum = -6.0;
@@ -29,8 +29,8 @@ double noise(int i, int j, int k) {
   return sum;
 }
 
-/// A CT of a cylinder of 40 HU with a rod of 700 HU in air, noise of 10 HU. Outside the scanner's round field lies
-/// `padding`, where it is below air; `offset` is added to all.
+/// A CT of a cylinder of 40 HU with a rod of 700 HU in air, noise of 10 HU. Outside the scanner's round field the value
+/// is `padding` if that is below air; `offset` is added to all.
 volume::Volume phantom(double padding, double offset, VoxelType stored) {
   return volume::make_volume({48, 48, 24}, glm::dvec3(1), stored, [=](int i, int j, int k) {
     const double x = i - 23.5, y = j - 23.5, radius = std::hypot(x, y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The automatic exposure: the densest line of voxels against sums line by line, and how bright X-rays become by it.
+// The automatic exposure: the densest line of voxels against sums line by line, and the resulting brightness of X-rays.
 #include "scene/xray_exposure.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Scene scene_of(const SceneDescription& description, volume::Volume volume) {
   return build_scene(description, std::make_shared<const volume::Volume>(std::move(volume)));
 }
 
-/// What the definition says of one voxel's line in one direction, walked from that voxel on.
+/// The definition for one voxel's line in one direction, walked from that voxel on.
 double from_voxel(const volume::Volume& volume, const Classifier& classify, glm::ivec3 at, const glm::ivec3& step) {
   const double length = glm::length(glm::dvec3(step) * volume.spacing) / volume.kernel_unit();
   double sum = 0.0;
@@ -83,8 +83,8 @@ TEST(XrayExposure, NothingVisibleHasExposureOne) {
   EXPECT_EQ(automatic_exposure(volume, Classifier(nothing, volume), 1.0), 1.0);
 }
 
-// Few voxels in a large volume: bright where it is brightest, the rods looked at end-on, and as bright from elsewhere
-// as they are beside that. (By the volume's diagonal alone they would have a third of it.)
+// Few voxels in a large volume: bright in the brightest view, the rods seen end-on, and in the same proportion from
+// elsewhere. (By the volume's diagonal alone they would have a third of it.)
 TEST(XrayExposure, SparseVolumesAreNotDark) {
   const volume::Volume rods =
       make_volume({64, 64, 64}, glm::dvec3(1.0), volume::VoxelType::U8,

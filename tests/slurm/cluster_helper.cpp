@@ -25,7 +25,7 @@ using cli_test::read_bytes;
 
 constexpr double kStart = 15.0;  ///< seconds until a daemon must be ready
 
-/// Daemons lie where a plain user's shell does not look.
+/// Daemons are in folders that a plain user's shell does not search.
 std::string path_setting() {
   const char* path = std::getenv("PATH");
   return "PATH=" + std::string(path == nullptr ? "/usr/bin:/bin" : path) + ":/usr/sbin:/sbin";
@@ -47,7 +47,7 @@ bool is_free(int port) {
   return free;
 }
 
-/// The first of `count` ports in a row that nobody has, below those that the kernel hands out by itself.
+/// The first of `count` consecutive free ports, below those that the kernel assigns by itself.
 int free_ports(int count) {
   std::random_device chance;
   for (int tries = 0; tries < 1000; ++tries) {
@@ -64,7 +64,7 @@ std::string tail(const fs::path& file) {
   return text.size() < 2000 ? text : "..." + text.substr(text.size() - 2000);
 }
 
-/// 22 of "slurm 22.05.8"; 0 where it does not say.
+/// 22 of "slurm 22.05.8"; 0 if it is not printed.
 int slurm_release() {
   cli_test::Surroundings with_daemons;
   with_daemons.environment = {path_setting()};
@@ -116,13 +116,13 @@ std::string why_no_cluster() {
 }
 
 Cluster::Cluster(int nodes, int array_max) : home_(folder_.path() / ".slurm"), nodes_(nodes), array_max_(array_max) {
-  // munge talks to no socket in a folder that others may not enter.
+  // munge refuses a socket in a folder that others may not enter.
   fs::permissions(folder_.path(), fs::perms(0755));
   for (const char* part : {"", "munge", "state", "spool", "run", "log"}) {
     fs::create_directories(home_ / part);
     fs::permissions(home_ / part, fs::perms(0755));
   }
-  // Somebody else may take a port between its choice and its use.
+  // Another process may take a port between its choice and its use.
   if (start() || (end(), ended_ = false, start())) return;
   const std::string said = logs();
   end();
@@ -139,10 +139,10 @@ void Cluster::write_settings() {
   out << "ClusterName=test\nSlurmctldHost=localhost\n"
       << "SlurmUser=" << user_name() << "\nSlurmdUser=" << user_name()
       << "\n"
-      // A requeued task waits until its credential has expired: 120 s by default; below 5 s is not obeyed.
+      // A requeued task waits until its credential has expired: 120 s by default; values below 5 s are ignored.
       << "AuthType=auth/munge\nAuthInfo=socket=" << d
       << "/munge/sock,cred_expire=5\n"
-      // Loopback alone; without EnableIPv6 no name is found where there is no other interface.
+      // Loopback only; without EnableIPv6 names do not resolve if there is no other interface.
       << "CommunicationParameters=NoInAddrAny,NoCtldInAddrAny,EnableIPv6\nSlurmctldPort=" << port_ << "\n"
       << "StateSaveLocation=" << d << "/state\nSlurmdSpoolDir=" << d << "/spool/%n\n"
       << "SlurmctldPidFile=" << d << "/run/slurmctld.pid\nSlurmdPidFile=" << d << "/run/slurmd-%n.pid\n"
@@ -153,13 +153,13 @@ void Cluster::write_settings() {
       << "JobCompType=jobcomp/filetxt\nJobCompLoc=" << d << "/log/jobcomp.txt\n"
       << "SelectType=select/cons_tres\nSelectTypeParameters=CR_Core\nSchedulerType=sched/backfill\n"
       << "SchedulerParameters=batch_sched_delay=0,sched_min_interval=100000,sched_interval=1,bf_interval=1\n"
-      // Processors as written here, not as the machine has them.
+      // Processors as declared here, not as the machine has them.
       << "SlurmdParameters=config_overrides\n"
-      // JobRequeue=0: a task is requeued because its script says so. ReturnToService=1: only state=resume brings a node
-      // back that was set down. MinJobAge: ended jobs stay known.
+      // JobRequeue=0: a task is requeued because its script requests it. ReturnToService=1: only state=resume brings a
+      // node back that was set down. MinJobAge: ended jobs stay known.
       << "JobRequeue=0\nReturnToService=1\nSlurmdTimeout=10\nKillWait=2\nMinJobAge=3600\nMailProg=/bin/true\n"
       << "MaxArraySize=" << array_max_ << "\n";
-  // Slurm 23 and newer look for cgroups even where no plugin uses them, and older ones do not know this word.
+  // Slurm 23 and newer look for cgroups even if no plugin uses them; older ones do not know this word.
   if (slurm_release() >= 23) std::ofstream(d + "/cgroup.conf") << "CgroupPlugin=disabled\n";
   for (int i = 0; i < nodes_; ++i) {
     fs::create_directories(home_ / "spool" / node_name(i));
@@ -274,7 +274,7 @@ std::vector<std::string> Cluster::end() {
   ended_ = true;
   if (controller_ != 0) {
     client({"scancel", "--user=" + user_name()});
-    // A step that still runs when its slurmd ends would be left behind.
+    // A step that still runs when its slurmd ends would be orphaned.
     wait_until([&] { return client({"squeue", "-h"}).out.empty(); }, 10);
   }
   for (const auto& [node, daemon] : daemons_) end_child(daemon);

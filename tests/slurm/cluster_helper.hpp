@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Slurm cluster of this test alone: munged, slurmctld and a slurmd a node, on loopback, as the calling user, without
-// accounting, everything in one temporary folder. The settings and why: each is there for something that was seen.
+// A Slurm cluster of this test alone: munged, slurmctld and one slurmd per node, on loopback, as the calling user,
+// without accounting, everything in one temporary folder. Each setting exists for a reason that is given.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace fastsplat::slurm_test {
 
-/// Why there can be no cluster here, with what to install; empty when there can.
+/// Why a cluster is impossible here, with the packages to install; empty if it is possible.
 std::string why_no_cluster();
 
 /// "JobState" -> "COMPLETED" of one job, or of one task of an array.
@@ -22,25 +22,25 @@ using Job = std::map<std::string, std::string>;
 class Cluster {
  public:
   /// Nodes n1, n2 ... of one processor each, idle. `array_max`: the site's MaxArraySize. Throws with the ends of the
-  /// logs when they do not come up.
+  /// logs if they do not start.
   explicit Cluster(int nodes, int array_max = 1001);
-  /// Ends everything, quietly.
+  /// Ends all daemons without messages.
   ~Cluster();
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
 
-  /// For work too: the cluster's own files lie beside in .slurm/, which other users may read.
+  /// For work too: the cluster's own files are beside it in .slurm/, which other users may read.
   const cli_test::TempFolder& folder() const { return folder_; }
-  /// What a client needs: PATH and SLURM_CONF.
+  /// The environment of a client: PATH and SLURM_CONF.
   std::vector<std::string> environment() const;
   /// A client's call, at most 20 seconds.
   cli_test::Result client(const std::vector<std::string>& words) const;
-  /// The same, of which success is expected; its stdout without the last newline.
+  /// The same; it must succeed. Returns its stdout without the last newline.
   std::string say(const std::vector<std::string>& words) const;
 
-  /// All tasks of a job, or the one job; empty when it is not known.
+  /// All tasks of a job, or the one job; empty if it is unknown.
   std::vector<Job> jobs(const std::string& id) const;
-  /// True when all of them have ended, however.
+  /// True if all of them have ended in any state.
   bool ended(const std::string& id) const;
   /// "idle", "down", "allocated*" ...
   std::string node_state(const std::string& node) const;
@@ -51,7 +51,8 @@ class Cluster {
   /// Starts the node's slurmd again and puts it back in service.
   void bring_back(const std::string& node);
 
-  /// Cancels what runs and ends the daemons. Processes that were left then (there should be none), and are killed.
+  /// Cancels running jobs and ends the daemons. Returns the processes that remained (none are expected); they are
+  /// killed.
   std::vector<std::string> end();
   /// The ends of the logs, for a failure's message.
   std::string logs() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan on a real cluster: two nodes, one of which goes away in the midst of its work; the merged result is the one of
-// a run here, byte for byte, and no process is left.
+// A plan on a real cluster: two nodes, one of which fails in the middle of its work. The merged result equals that of a
+// local run byte for byte, and no process remains.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -15,7 +15,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kShards = 3;
-constexpr double kLongest = 150.0;  ///< seconds for what takes ten on an idle machine
+constexpr double kLongest = 150.0;  ///< seconds for ten seconds of work on an idle machine
 
 std::vector<std::string> submission(const std::string& results, std::vector<std::string> more = {}) {
   std::vector<std::string> words{"plan",
@@ -35,14 +35,14 @@ std::vector<std::string> submission(const std::string& results, std::vector<std:
   return words;
 }
 
-/// When a file was made and as which: a result that was made again has others.
+/// Time and inode of a file: a result that was made again has others.
 std::pair<ino_t, std::filesystem::file_time_type> identity(const std::filesystem::path& file) {
   struct stat status {};
   ::stat(file.c_str(), &status);
   return {status.st_ino, std::filesystem::last_write_time(file)};
 }
 
-/// Everything that the jobs of a submission said.
+/// The output of all jobs of a submission.
 std::string logs_of(const std::filesystem::path& results) {
   std::string text;
   for (const auto& entry : std::filesystem::directory_iterator(results / "submit" / "log"))
@@ -75,7 +75,7 @@ class PlanOnACluster : public testing::Test {
   std::unique_ptr<SmallPlan> plan_;
 };
 
-/// The shard of a task that runs, has results and owes some; 0 for none.
+/// The shard of a task that runs, has results and has unfinished cases; 0 for none.
 int shard_in_the_midst(const SmallPlan& plan, const std::vector<Job>& tasks, Job& which) {
   for (const auto& task : tasks) {
     if (task.at("JobState") != "RUNNING" || !task.contains("ArrayTaskId")) continue;
@@ -94,7 +94,7 @@ TEST_F(PlanOnACluster, ANodeGoesAwayAndATaskIsLostAndTheResultIsTheSame) {
   ASSERT_EQ(rows_with(here, "fail"), 1);
   ASSERT_EQ(rows_with(here, "pass"), 7);
 
-  // --- a node goes away
+  // --- a node fails
   const json sent = submit(submission("cluster"));
   ASSERT_TRUE(sent.is_object()) << cluster_->logs();
   ASSERT_EQ(sent.at("arrays").size(), 2u) << sent.dump(1);
@@ -120,7 +120,7 @@ TEST_F(PlanOnACluster, ANodeGoesAwayAndATaskIsLostAndTheResultIsTheSame) {
   const std::string merged = read_bytes(*plan_ / "cluster.merged.json");
   figure("merged_bytes", static_cast<double>(merged.size()), "as here: " + std::to_string(here.size()));
   EXPECT_EQ(merged, here);
-  // The task ran twice and went on where it was.
+  // The task ran twice and continued where it had stopped.
   int restarts = 0, failed_tasks = 0;
   for (const auto& id : {first, second}) {
     for (const auto& task : cluster_->jobs(id)) {
@@ -135,7 +135,7 @@ TEST_F(PlanOnACluster, ANodeGoesAwayAndATaskIsLostAndTheResultIsTheSame) {
   figure("results_kept_over_the_crash", static_cast<double>(kept.size()), "> 0");
   for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(identity(kept[i]), before[i]) << kept[i];
 
-  // --- a task is lost: what it owes is named, and sent again alone
+  // --- a task is lost: its missing cases are named, and submitted again alone
   plan_->copy_without("cluster", "lost", 2, kShards);
   const json held = submit(submission("lost", {"--sbatch=--hold"}));
   ASSERT_EQ(held.at("arrays").size(), 1u) << held.dump(1);
@@ -163,7 +163,7 @@ TEST_F(PlanOnACluster, ANodeGoesAwayAndATaskIsLostAndTheResultIsTheSame) {
   ASSERT_TRUE(ends(again.at("merge_job"))) << cluster_->logs();
   EXPECT_EQ(read_bytes(*plan_ / "lost.merged.json"), here) << logs_of(*plan_ / "lost");
 
-  // --- what sbatch refuses leaves nothing in the queue
+  // --- a refusal by sbatch leaves no job in the queue
   plan_->copy_without("cluster", "refused", 2, kShards);
   auto refused = submission("refused", {"--partition", "nowhere"});
   std::erase(refused, "--json");

@@ -27,7 +27,7 @@ std::string with(std::string text, char from, char to) {
   return text;
 }
 
-/// "pid (name) state parent ...": what follows the name, which may hold anything.
+/// "pid (name) state parent ...": the part after the name, which may hold any characters.
 std::string after_name(const std::string& stat) {
   const auto at = stat.rfind(')');
   return at == std::string::npos || at + 4 > stat.size() ? std::string() : stat.substr(at + 2);

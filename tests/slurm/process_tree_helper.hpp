@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processes as /proc tells of them: which belong to a folder, whether they are gone, and ending them by their id.
+// Processes by /proc: which belong to a folder, whether they have ended, and ending them by their id.
 #pragma once
 
 #include <sys/types.h>
@@ -25,13 +25,13 @@ struct Process {
 std::vector<Process> processes_of(const std::filesystem::path& folder);
 
 /// Starts `words` with `environment` added, both streams at the end of `log`, no other descriptor inherited; ends with
-/// TERM when this process dies. Throws where it cannot be started.
+/// TERM when this process dies. Throws if it cannot be started.
 pid_t start_daemon(const std::vector<std::string>& words, const std::vector<std::string>& environment,
                    const std::filesystem::path& log);
-/// TERM, then KILL after ten seconds, to a child of ours; waits for it.
+/// TERM, then KILL after ten seconds, to a child process; waits for it.
 void end_child(pid_t child);
 
-/// Polls every 50 ms. False when `seconds` have gone by first.
+/// Polls every 50 ms. False if `seconds` pass first.
 bool wait_until(const std::function<bool()>& condition, double seconds);
 
 }  // namespace fastsplat::slurm_test

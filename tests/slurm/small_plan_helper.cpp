@@ -12,7 +12,7 @@ using cli_test::read_bytes;
 
 SmallPlan::SmallPlan(const cli_test::TempFolder& folder, int cases) : folder_(folder.path() / "a b'c\"d%1$x#") {
   fs::create_directories(folder_);
-  // From the front this sphere has 65.8 dB, from everywhere else more than 71.
+  // From the front this sphere has 65.8 dB, from all other sides more than 71.
   std::ofstream(folder_ / "spec.toml") << "kind = \"compare\"\n"
                                           "[constants]\n"
                                           "volume = \"shells:32\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plan of some short cases, the first of which fails: made and run by the program, here and elsewhere.
+// A plan of short cases, the first of which fails: made and run by the program, here and elsewhere.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace fastsplat::slurm_test {
 
-/// In a folder whose name needs every quote there is.
+/// In a folder whose name needs every kind of quoting.
 class SmallPlan {
  public:
   /// `cases`: at most eight.
@@ -20,17 +20,17 @@ class SmallPlan {
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
   /// The program in that folder.
   cli_test::Result run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {}) const;
-  /// The same, of which success is expected.
+  /// The same; it must succeed.
   cli_test::Result succeed(const std::vector<std::string>& words,
                            const std::vector<std::string>& environment = {}) const;
 
-  /// Runs every case here, two at a time, and merges: the merged bytes.
+  /// Runs every case here, two at a time, and returns the merged bytes.
   std::string run_here(const std::string& results) const;
   /// Result files of the cases of a shard.
   std::vector<std::filesystem::path> files_of(const std::string& results, int shard, int shards) const;
-  /// Those of them that are there.
+  /// The existing ones among them.
   std::vector<std::filesystem::path> done_of(const std::string& results, int shard, int shards) const;
-  /// Copies what lies in a folder of results but for the files of a shard.
+  /// Copies a folder of results without the files of a shard.
   void copy_without(const std::string& from, const std::string& to, int shard, int shards) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a plan becomes arrays and scripts: chunks, ranges, words that survive a shell; scripts run by the shell itself.
+// Arrays and scripts of a plan: chunks, ranges, words that survive a shell; the shell itself runs the scripts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using cli_test::TempFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// All of `shards` to do, arrays of `array_max`.
+/// All of `shards` unfinished, arrays of `array_max`.
 Submission submission(std::size_t shards, std::size_t array_max) {
   Submission s{.name = "fs-bits-01234567",
                .what = "plan bits, 10 cases",
@@ -105,7 +105,7 @@ TEST(SlurmScript, PrintsTheSlurmScript) {
   EXPECT_THAT(sbatch_merge(s, {"7", "9"}),
               ElementsAre("sbatch", "--parsable", "--dependency=afterany:7:9", "/data/results/submit/merge.sbatch"));
   EXPECT_THAT(sbatch_merge(s, {}), ElementsAre("sbatch", "--parsable", "/data/results/submit/merge.sbatch"));
-  // A directive after the first command is none.
+  // A directive after the first command has no effect.
   EXPECT_LT(script.rfind("#SBATCH"), script.find("\nfor "));
 }
 
@@ -136,7 +136,7 @@ TEST(Durations, AsSbatchReadsThem) {
     EXPECT_THROW(seconds_from(bad), UserError) << bad;
 }
 
-/// Scripts of a stand-in for the program, in folders whose names need every quote there is.
+/// Scripts for a stub of the program, in folders whose names need every kind of quoting.
 class Scripts : public testing::Test {
  protected:
   Scripts() {
@@ -155,7 +155,7 @@ class Scripts : public testing::Test {
   void write_file(const std::string& name, const std::string& text) const {
     std::ofstream(s_.folder / name, std::ios::binary) << text;
   }
-  /// What the stand-in was told, a word a line; forgotten then.
+  /// The arguments that the stub was called with, one a line; reading clears them.
   std::string said() const {
     const auto text = read_bytes(s_.folder / "said");
     std::filesystem::remove(s_.folder / "said");

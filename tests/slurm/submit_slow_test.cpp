@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// plan submit without a cluster: its errors, the half that is taken back, dry runs, and GNU parallel as an engine.
+// plan submit without a cluster: its errors, cancelled halves of a submission, dry runs, and GNU parallel as an engine.
 #include <gtest/gtest.h>
 
 #include "tests/slurm/small_plan_helper.hpp"
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class Submit : public testing::Test {
  protected:
-  /// A client's stand-in, found before any real one.
+  /// A stub of a client, found before any real one.
   void stand_in(const std::string& client, const std::string& script) {
     std::filesystem::create_directories(folder_.path() / "bin");
     folder_.write("bin/" + client, "#!/bin/sh\n" + script);
@@ -37,7 +37,7 @@ TEST_F(Submit, ErrorsAreOneLineAndLeaveNothing) {
   expect_error(plan_.run(with(slurm, {"--sbatch=account=x"})), 2, {"--sbatch", "account=x"});
   expect_error(plan_.run(with(slurm, {"--partition", "a b"})), 2, {"--partition", "a b"});
   expect_error(plan_.run({"plan", "submit", "spec.toml", "--engine", "script"}), 3, {"spec.toml"});
-  // A folder that nobody can make, not even root.
+  // A folder that not even root can create.
   expect_error(plan_.run({"plan", "submit", "plan.json", "--engine", "script", "--results", "plan.json/x"}), 3,
                {"plan.json/x", "Not a directory"});
   stand_in("sbatch", "exit 0\n");
@@ -84,7 +84,7 @@ TEST_F(Submit, GnuParallelRunsTheCommandListToTheSameBytes) {
   const std::string here = plan_.run_here("here");
   plan_.copy_without("here", "there", 1, 3);
   plan_.succeed({"plan", "submit", "plan.json", "--engine", "script", "--results", "there", "--shards", "3"});
-  // What the subcommand says of itself, in a shell elsewhere; a task with a failed case counts as one for GNU parallel.
+  // The subcommand's printed command, in a shell elsewhere; GNU parallel counts a task with a failed case as one.
   cli_test::Surroundings elsewhere;
   elsewhere.folder = "/";
   elsewhere.environment = {"HOME=" + folder_.path().string()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Merged results looked at: tables, CSV, the Pareto front.
+// Views of merged results: tables, CSV, the Pareto front.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

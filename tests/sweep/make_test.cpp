@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Specifications expanded: which cases, in which order, and what their names depend on.
+// Expanded specifications: the cases, their order, and the inputs of their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TEST(PlanMake, NamesAreStableAndUnique) {
                             "kind = \"cycles\"\n[constants]\nvolume = \"v\"\n[axes]\nn = [1, 2]\n"}) {
     for (const auto& id : ids(other)) EXPECT_FALSE(first.contains(id)) << other;
   }
-  // What is behind the names, and nothing else: the commands are the same.
+  // The inputs of the names, and nothing else: the commands are the same.
   auto changed = vocabulary();
   changed.content = [](const plan::Settings&, const std::vector<std::string>&) { return plan::Content{"other", "s"}; };
   for (const auto& one :
@@ -97,7 +97,7 @@ TEST(PlanMake, RefusesSettingsWithoutEffectWithTheLine) {
        "spec.toml:3:8: axis = \"n\" names the label column, but n is also a setting"},
       {"kind = \"cycles\"\n[constants]\nn = 1\n[[zip]]\naxis = \"n\"\nlabel = [\"a\"]\nvolume = [\"v\"]\n",
        "spec.toml:5:8: axis = \"n\" names the label column"},
-      // A name of the specification's own must not hide a figure.
+      // A name in a specification must not hide a figure.
       {"kind = \"cycles\"\n[[zip]]\naxis = \"cycles\"\nlabel = [1]\nn = [1]\n",
        "spec.toml:3:8: 'cycles' is the name of a built-in column"},
       {"kind = \"cycles\"\n[[zip]]\naxis = \"status\"\nlabel = [1]\nn = [1]\n",
@@ -141,7 +141,7 @@ TEST(PlanMake, ChangedFilesAreRefused) {
   EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("invalid shard"));
 }
 
-/// With every hash computed again, a plan from elsewhere still runs nothing but what plan make writes.
+/// Even with every hash recomputed, a foreign plan runs nothing but commands that plan make writes.
 TEST(PlanMake, AForgedPlanIsRefused) {
   const Folder folder;
   const auto honest = plan_of(folder, "kind = [\"compare\", \"verify\"]\n[axes]\nn = [1, 2]\n");

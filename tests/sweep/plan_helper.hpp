@@ -30,13 +30,12 @@ std::string read(const std::filesystem::path& path);
 std::vector<std::pair<std::string, std::string>> results_in(const std::filesystem::path& folder);
 
 /// Subcommands "cycles" and "verify" with --n, --bad and, for the configuration, --config and --set; "render" and
-/// "compare" as the kind compare has them. A configuration's hash is its words.
+/// "compare" like those of the kind compare. A configuration's hash is its words.
 plan::Vocabulary vocabulary();
 
-/// A script that is such a program: its JSON holds "n" and the time; --n 13 is a limit that is broken, --n 99 refused,
-/// --n 66 is ended by a signal. Until FOLDER/mended is there, the machine is in the way of --n 70 to 75, 126 and 139:
-/// exit codes, or no JSON or half of it (71 to 73). It says in FOLDER/log what it was run with. `before`: shell lines
-/// run first.
+/// A script as such a program: its JSON holds "n" and the time. --n 13 breaks a limit, --n 99 is refused, --n 66 is
+/// ended by a signal. Until FOLDER/mended exists, the machine fails for --n 70 to 75, 126 and 139: exit codes, or no
+/// JSON or half of it (71 to 73). It writes its arguments to FOLDER/log. `before`: shell lines run first.
 std::string script(const Folder& folder, const std::string& before = {});
 
 /// Of a specification's text.
@@ -45,7 +44,7 @@ plan::Plan plan_of(const Folder& folder, const std::string& spec);
 plan::RunSummary run(const Folder& folder, const plan::Plan& plan, const std::string& program,
                      const std::string& results = "results", plan::Shard shard = {}, std::size_t jobs = 1);
 
-/// What the error says that `call` throws; empty where it throws none.
+/// The message of the error that `call` throws; empty if it throws none.
 template <class Call>
 std::string error_of(const Call& call) {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans of the program itself: killed twice and resumed, verifications that add up, a case that fails.
+// Plans of the program itself: killed twice and resumed, verifications that add up, a failing case.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(PlanProgram, KilledTwiceAndResumedGivesTheSameBytes) {
   }
 }
 
-/// A plan, its results when nothing disturbs it, and what disturbed ones must come to.
+/// A plan, its undisturbed results, and the same results that disturbed runs must reach.
 class PlanDisturbed : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -79,7 +79,7 @@ class PlanDisturbed : public ::testing::Test {
     expect_success(fastsplat({"plan", "run", plan_, "--results", folder_ / "whole", "--jobs", "2"}));
     expected_ = merged(plan_, folder_ / "whole");
   }
-  /// Results are whole and as they would have been, or not there.
+  /// Results are complete and equal, or do not exist.
   void expect_sound(const std::string& results) const {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(results, ignored)) {
@@ -88,7 +88,7 @@ class PlanDisturbed : public ::testing::Test {
           << entry.path();
     }
   }
-  /// The next run, undisturbed, does the rest.
+  /// The next, undisturbed run completes them.
   void expect_mended(const std::string& results) const {
     expect_success(fastsplat({"plan", "run", plan_, "--results", results, "--jobs", "2"}));
     EXPECT_TRUE(merged(plan_, results) == expected_) << results;
@@ -182,7 +182,7 @@ TEST_F(PlanDisturbed, ByResultsThatAreEmptyOrCut) {
 }
 
 TEST_F(PlanDisturbed, ByAModuleThatIsMissing) {
-  // The program without the module beside it: pictures can be neither read nor written.
+  // The program without its module: pictures can be neither read nor written.
   fs::copy(program(), folder_ / "fastsplat");
   const auto run = run_words({folder_ / "fastsplat", "plan", "run", plan_, "--results", folder_ / "bare"});
   EXPECT_EQ(run.code, 3) << run.err;
@@ -190,7 +190,7 @@ TEST_F(PlanDisturbed, ByAModuleThatIsMissing) {
   EXPECT_EQ(results_in(folder_ / "bare"), 0u);
 }
 
-/// A plan from elsewhere, with its hashes computed again, runs nothing that plan make does not write.
+/// A foreign plan, with its hashes recomputed, runs nothing that plan make does not write.
 TEST_F(PlanDisturbed, ByForgedSteps) {
   auto json = nlohmann::ordered_json::parse(read_bytes(plan_));
   json["cases"][0]["steps"][0]["argv"] = {"volume", "convert", "shells:8", folder_ / "stolen.nrrd"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans run and merged: what is done is skipped, what fails is told, whatever the order the bytes are the same.
+// Plans run and merged: finished cases are skipped, failures are reported, and the bytes do not depend on the order.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -89,7 +89,7 @@ TEST(PlanRun, AFailingCaseIsAResultAndTheOthersGoOn) {
   EXPECT_EQ(runs(folder), 4u);
 }
 
-/// Disk, memory, signals, a crash, a module that is missing: none is a result, all is run again.
+/// Disk, memory, signals, a crash, a missing module: not a result; all are run again.
 TEST(PlanRun, FailuresOfTheMachineAreNotResults) {
   const Folder folder;
   const auto plan = plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 66, 70, 71, 72, 73, 75, 126, 139]\n");

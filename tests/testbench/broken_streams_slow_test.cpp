@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Broken and damaged streams at length: what a device refuses, and what comes out of it, is what the model says.
+// Broken and damaged streams at length: the device's refusals and outputs equal the model's.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cycles in the checker: the cycle model beside every verified run, and one cycle too many is a failure.
+// Cycles in the checker: the cycle model runs beside every verified run, and one cycle too many is a failure.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// A device that tells one stall counter wrong.
+/// A device that reports one stall counter wrong.
 class Miscounting final : public PassingDevice {
  public:
   Miscounting(std::unique_ptr<RtlDevice> device, std::uint64_t cmodel::StallCounters::*field)
@@ -88,7 +88,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
   EXPECT_FALSE(result.check.cycles_model);
 }
 
-// A sink that is ready now and then takes a picture in a hundred times what a device may stand still.
+// A sink that is rarely ready takes a picture in a hundred times the longest wait of a device.
 TEST(CheckedCycles, ASlowSinkIsNotAHang) {
   VerifyOptions options = tiny();
   options.ready = "every-100";
@@ -103,7 +103,7 @@ TEST(CheckedCycles, ASlowSinkIsNotAHang) {
   EXPECT_GT(*result.check.cycles_rtl, 20 * options.timeout);
 }
 
-// Devices in one thread do not lean on each other: the simulator keeps a context by thread.
+// Devices in one thread are independent: the simulator keeps a context per thread.
 TEST(VerilatedDevices, MayGoInAnyOrder) {
   const auto config = driver::load_config("tiny");
   cmodel::NullPixels pixels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker itself: it passes what is right, and sees, tells, shrinks and replays what is wrong.
+// The checker itself: passes correct devices; finds, reports, shrinks and replays errors.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// What a broken device does to a tap: changes it, or loses it.
+/// The effect of a broken device on a tap: changes it, or loses it.
 using Damage = std::function<bool(RawTap&, std::vector<std::uint32_t>&)>;
 
 class DamagedTaps final : public RawTapSink {
@@ -35,7 +35,7 @@ class DamagedTaps final : public RawTapSink {
   Damage damage_;
 };
 
-/// The ports whose words are compared, with who compares them.
+/// The ports whose words are compared, with their detectors.
 constexpr std::pair<RawPort, Detector> kPorts[] = {{RawPort::Snap, Detector::Snap},
                                                    {RawPort::Window, Detector::Footprint},
                                                    {RawPort::Sheet, Detector::Sheet},
@@ -91,7 +91,7 @@ TEST(Checker, SeesOneDamagedEventOfEachTap) {
                                }));
     EXPECT_EQ(result.verdict, Verdict::Mismatch);
     EXPECT_EQ(result.check.detector, detector);
-    // A pixel is seen in its tile as well.
+    // A pixel is also seen in its tile.
     const bool pixel = port == RawPort::Pixels;
     EXPECT_EQ(result.check.mismatches > 1, pixel) << to_string(detector);
     ASSERT_TRUE(result.check.first);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closure as JSON: every figure is the closure's own. The one that is made here is checked in, for the browser's
-// test.
+// The closure as JSON has the closure's own figures. The JSON made here is checked in, for the browser's test.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,7 +18,7 @@ using Json = nlohmann::ordered_json;
 const std::filesystem::path kSample =
     std::filesystem::path(FASTSPLAT_SOURCE_DIR) / "report" / "web" / "test" / "samples" / "closure.json";
 
-/// What was hit by the campaign "hazards", of bins that are all planned.
+/// Hits of the campaign "hazards", in bins that are all planned.
 ClosureInput input_of(const std::string& config, std::uint64_t hash,
                       const std::vector<std::pair<const char*, std::uint64_t>>& hits) {
   ClosureInput input{
@@ -50,7 +49,7 @@ Testpoint point_of(const std::string& name, const std::string& proves, std::vect
   return point;
 }
 
-/// One of everything: hit and open bins, tests that passed, failed and never ran, lines reached, excused and open.
+/// One of each: hit and open bins, tests that passed, failed and never ran, lines reached, excused and open.
 ClosureReport made() {
   ClosureReport report{
       .version = "0.1.0",

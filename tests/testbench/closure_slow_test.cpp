@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan closes for `tiny` in a small run of the ordinary build (no line counts), and opens when a stimulus class is
-// left out.
+// The plan closes for `tiny` in a small run of the ordinary build (no line counts), and opens if a stimulus class is
+// omitted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ CoverageOrder tiny() {
   return order;
 }
 
-/// Without what only other configurations have.
+/// Without bins that only other configurations have.
 std::vector<std::string> open_bins(const ClosureInput& input) {
   auto findings = close_coverage(plan(), {input}, {}).findings;
   const auto missing = classes_without_streams(input.book);
@@ -75,7 +75,7 @@ TEST(Closure, OfTinyCloses) {
   std::printf("[figure] classes that the closure misses when they are left out = %d of %zu\n", needed,
               stimulus_classes().size());
 
-  // And saved and read again it is the same.
+  // Saved and read again it is the same.
   const auto path = std::filesystem::temp_directory_path() / ("fastsplat-book-" + std::to_string(::getpid()) + ".json");
   write_book(path, runs.book);
   const ClosureInput again{read_book(path), input.planned};
@@ -104,7 +104,7 @@ TEST(Closure, OfTinyCloses) {
 }
 
 TEST(Closure, WithoutAClassRunIsOpen) {
-  // Really not run, rather than taken out afterwards.
+  // Not run at all, rather than removed afterwards.
   CoverageOrder order = tiny();
   order.scenes.clear();
   order.volume = {.splats = 1700, .seeds = 6, .resets = 3};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functional coverage: what a small known stream hits, that it costs nothing when off, and that random campaigns reach
-// what they promise.
+// Functional coverage: the hits of a small known stream, no cost when off, and random campaigns reach their bins.
 #include "testbench/coverage/coverage.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +60,7 @@ TEST(Coverage, IsFreeWhenOff) {
 
 TEST(Coverage, OfHazardsIsThatOfTheHand) {
   const auto options = sampled("tiny");
-  // Twice the same place, then again over one window elsewhere; then across a swap: end_sheet, begin_sheet, window.
+  // The same place twice, then again over one window elsewhere; then across a swap: end_sheet, begin_sheet, window.
   const Coverage coverage = coverage_of(centres(options.config, {{5, 5, 20, 5}, {5}}), options);
   EXPECT_EQ(coverage.hits("hazard.distance_1"), 1u);
   EXPECT_EQ(coverage.hits("hazard.distance_2"), 1u);
@@ -123,7 +122,7 @@ TEST(Coverage, RoundingDistinguishesExactTieAndSides) {
 TEST(Campaign, EveryClassMeetsEveryPatternOverSixSeeds) {
   const std::vector<StimulusClass> one{StimulusClass::Hazards}, all = stimulus_classes();
   const std::vector<StimulusClass> most(all.begin(), all.end() - 1);
-  // However many classes take turns.
+  // With any number of alternating classes.
   for (const auto& classes : {one, most, all}) {
     CampaignOptions campaign;
     campaign.verify = sampled("tiny");
@@ -137,7 +136,7 @@ TEST(Campaign, EveryClassMeetsEveryPatternOverSixSeeds) {
     for (const auto& stream : result.by_stream) ++crossings[{stream.which, stream.ready}];
     std::size_t crossed = 0;
     for (const auto& [pair, streams] : crossings) {
-      // The sink of BackPressure never takes at once: it has a pattern of its own in place of `always`.
+      // The sink of BackPressure never takes at once: it replaces `always` with its own pattern.
       if (pair.first == StimulusClass::BackPressure) continue;
       EXPECT_EQ(streams, 1) << to_string(pair.first) << " " << pair.second;
       ++crossed;
@@ -163,7 +162,7 @@ TEST_P(Directed, RegistersAnswerAsThePageSays) {
   expect_all(check_registers(config, rtl_of(config)));
 }
 
-/// base, whose tables are long, is in broken_streams_slow_test.cpp.
+/// The tables of base are long; it is in broken_streams_slow_test.cpp.
 class DirectedRefusals : public ::testing::TestWithParam<const char*> {};
 
 // S-reader-4, S-rule-1, S-rule-2. A frame without its tiles is legal (S-file-7).
@@ -189,7 +188,7 @@ TEST_P(DirectedRefusals, DamagedStreamsMeetTheModelsVerdict) {
   EXPECT_GT(refused_streams(result), 0);
 }
 
-/// What differs between configurations is not what a reset clears; the largest takes seconds.
+/// Configurations do not differ in what a reset clears; the largest takes seconds.
 class DirectedResets : public ::testing::TestWithParam<const char*> {};
 
 // One clock edge, in the middle of any work, clears all of it (M-reset-1, M-reset-2).

@@ -92,7 +92,7 @@ struct Ideal final : cmodel::CycleSink {
     cycles += std::max(sheet.windows, picks_before_);
     picks_before_ = sheet.blocks * slices_;
     if (!densities_.contains(sheet.tile)) return;
-    // Copied, a block a cycle (M-density-6); a cycle later the sheet before is classified (M-density-14).
+    // Copied, a block a cycle (M-density-6); a cycle later the previous sheet is classified (M-density-14).
     picks_before_ = waits_ ? std::max<std::uint64_t>(sheet.blocks, 1) + 1 + classified(*waits_) : sheet.blocks;
     waits_ = sheet.blocks;
   }
@@ -159,7 +159,7 @@ CycleComparison compare_cycles(const cmodel::Config& config, std::span<const cmo
     tested.consume(beats);
   }
 
-  // Making the device took some cycles already: it read the configuration's hash.
+  // Creating the device took some cycles: it read the configuration's hash.
   cmodel::CycleModel model(config, cmodel::StreamScope::Subset,
                            {.input = &input,
                             .output = &output,

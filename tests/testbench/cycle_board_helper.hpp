@@ -19,7 +19,7 @@ namespace fastsplat::test {
 struct CycleComparison {
   std::array<std::uint64_t, cmodel::kTapCount> by_tap{};
   std::uint64_t comparisons = 0, mismatches = 0;
-  std::string first;  ///< the first mismatch in words
+  std::string first;  ///< the first mismatch as text
   std::uint64_t rtl_cycles = 0;
   cmodel::CycleAccount account;
   cmodel::StallCounters stalls;
@@ -28,7 +28,7 @@ struct CycleComparison {
   CycleComparison& operator+=(const CycleComparison& other);
 };
 
-/// Prints the figures; fails the test where something differs or nothing of a tap was compared.
+/// Prints the figures; fails the test if anything differs or no event of a tap was compared.
 void judge(const std::string& name, const CycleComparison& comparison);
 
 using MakeRtl = std::function<std::unique_ptr<testbench::RtlDevice>(const cmodel::Config&, cmodel::PixelSink&,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle model at length: every pair of patterns, a head scan's cycles, and how much faster than the clocked device.
+// The cycle model at length: every pair of patterns, a head scan's cycles, and its speed against the clocked device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,8 +87,8 @@ TEST(CycleModelSpeed, AHundredTimesTheClockedBase) {
   EXPECT_GE(ratio, 100.0);
 }
 
-// Before its decoder checked rules, beats had 256 bits and pixels their own registers, this frame had 8,786,660 windows
-// and cost 1.004 times as many cycles. None of that may cost more.
+// Before the decoder checked rules, beats had 256 bits and pixels had their own registers: this frame had 8,786,660
+// windows and cost 1.004 times as many cycles. None of these may cost more.
 TEST(HeadScan, CostsNoMoreCyclesThanTheDeviceThatTrustedItsStream) {
   constexpr std::uint64_t kWindowsThen = 8'786'660;
   constexpr double kRatioThen = 1.004;

@@ -19,7 +19,7 @@ namespace {
 
 using testbench::Pattern;
 
-/// begin_frame and tables such that a splat's footprint is exactly P x P: one window a splat.
+/// begin_frame and tables with which a splat's footprint is exactly P x P: one window a splat.
 void begin_one_window_frame(StreamWriter& writer, const cmodel::Config& config) {
   const auto words = [](int count) { return std::vector<std::uint32_t>(static_cast<std::size_t>(count), 1); };
   writer.begin_frame(config.tile_width, config.tile_height, 1);
@@ -145,7 +145,7 @@ TEST_P(EachConfig, IdenticalCentresTakeOneCycleEach) {
   RecordProperty("windows_per_cycle", std::to_string(rate));
 }
 
-// From how many windows a sheet on begin_sheet never waits for a buffer (M-account-6).
+// The number of windows from which a sheet's begin_sheet never waits for a buffer (M-account-6).
 TEST_P(EachConfig, SheetsOfNineWindowsMoreThanBlocksNeverWait) {
   constexpr std::uint64_t kSheets = 6;
   const std::int32_t centre = (config().tile_width / 2) << config().position_frac_bits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of the directed checks share: the RTL as the checks want it, and what has to be so of each result.
+// Shared by the tests of the directed checks: their RTL, and the conditions on each result.
 #pragma once
 
 #include "testbench/stimulus/directed.hpp"
@@ -11,7 +11,7 @@ MakeDevice rtl_of(const cmodel::Config& config);
 /// Nothing failed, something was compared, and every bin was hit.
 void expect_all(const DirectedResult& result);
 
-/// How many streams were refused as the model refuses them; printed by rule.
+/// Number of streams that were refused as by the model; printed by rule.
 int refused_streams(const DirectedResult& result);
 
 }  // namespace fastsplat::testbench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that users hand in, mutated by the thousand: stream files, transfer functions, coverage books. Each is taken,
-// or refused in one line as a bad file; nothing else may come of it, nor of what was taken.
+// Files that users pass, mutated by the thousand: stream files, transfer functions, coverage books. Each is accepted,
+// or refused in one line as a bad file; accepted ones must work.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using test::Random;
 
-/// Of the mutations; a seed that ever found something stays in this list.
+/// Seed of the mutations; a seed that once found an error stays in this list.
 constexpr std::uint64_t kSeeds[] = {1, 2, 3, 4, 5};
 constexpr int kStreams = 3000, kTransferFunctions = 6000, kBooks = 3000;  // a seed
 
@@ -36,7 +36,7 @@ std::size_t place(Random& random, const std::string& bytes) {
   return static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(bytes.size()) - 1));
 }
 
-/// What a bad disk, a bad copy and a bad writer do.
+/// Damage by bad disks, bad copies and bad writers.
 void mutate_bytes(std::string& bytes, Random& random) {
   const std::size_t at = place(random, bytes);
   const auto length = static_cast<std::size_t>(random.between(1, 64));
@@ -65,7 +65,7 @@ void mutate_bytes(std::string& bytes, Random& random) {
   }
 }
 
-/// What a hand at a text does: another number, another word, a line twice or gone.
+/// Damage by an editor's hand: another number, another word, a line doubled or missing.
 void mutate_text(std::string& text, Random& random) {
   static const char* const kWords[] = {"nan",  "-inf",      "1e999", "-0.0",  "0",  "1e-300", "99999999999999999999",
                                        "true", "\"x\"",     "[]",    "{}",    "[[", "]",      "}",
@@ -107,7 +107,7 @@ class Fuzz : public ::testing::TestWithParam<std::uint64_t> {
   void TearDown() override { std::filesystem::remove(path_); }
   void write(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
-  /// True where `action` took the file; any refusal but that of a bad file fails, naming the case.
+  /// True if `action` accepted the file; any refusal other than that of a bad file fails, naming the case.
   template <class Action>
   bool taken(int number, Action action) {
     try {
@@ -143,11 +143,11 @@ TEST_P(Fuzz, StreamFiles) {
   int accepted = 0;
   for (int number = 0; number < kStreams; ++number) {
     std::string bytes = whole;
-    // One in eight is whole, so that what follows a sound stream is tried, too.
+    // One in eight is undamaged, so that the code after a valid stream is tested too.
     for (std::int64_t i = random.between(0, 7); i > 4; --i) mutate_bytes(bytes, random);
     if (random.once_in(2)) mutate_bytes(bytes, random);
     write(bytes);
-    // The reader of each subcommand; what one of them takes, all take.
+    // The reader of each subcommand; a stream that one of them accepts, all accept.
     const bool replayed = taken(number, [&] { driver::replay_stream(path_, config); });
     const bool counted = taken(number, [&] {
       cmodel::CycleModel model(config, cmodel::StreamScope::Whole, {});
@@ -177,7 +177,7 @@ TEST_P(Fuzz, TransferFunctions) {
     accepted += taken(number, [&] {
       const auto tf = scene::load_transfer_function(path_.string());
       const scene::Classifier classify(tf, volume);
-      // What was taken classifies every value, in numbers.
+      // An accepted function classifies every value, in numbers.
       for (const float value : {volume.min, 0.5f * (volume.min + volume.max), volume.max}) {
         const auto material = classify(value);
         EXPECT_TRUE(std::isfinite(material.extinction) && material.extinction >= 0.0f) << "case " << number << "\n"
@@ -209,7 +209,7 @@ TEST_P(Fuzz, CoverageBooks) {
       random.once_in(3) ? mutate_bytes(text, random) : mutate_text(text, random);
     write(text);
     accepted += taken(number, [&] {
-      // What was read is written and read again as the same.
+      // A file that was read is written and reads back the same.
       auto sum = CoverageBook::of(config);
       sum.merge(read_book(path_));
       write_book(path_, sum);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verification plan against what there is: bins, campaigns, tests, assertions and faults, each both ways; and the
-// closure itself, which must notice whatever is missing.
+// The verification plan against the tree: bins, campaigns, tests, assertions and faults, each in both directions; and
+// the closure itself, which must notice every omission.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::vector<std::string> all_matches(const std::filesystem::path& folder, const 
   return out;
 }
 
-/// Every test of tests/ as the plan writes it: folder.Suite.Name, and rtl.NAME.
+/// Every test of tests/ as named in the plan: folder.Suite.Name, and rtl.NAME.
 std::set<std::string> tests_of_the_sources() {
   static const std::regex test(R"(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))");
   std::set<std::string> out;
@@ -55,7 +55,7 @@ std::set<std::string> tests_of_the_sources() {
   return out;
 }
 
-/// Names in the RTL of the device; what lies around it, in io/, is not of this plan.
+/// Names in the RTL of the device; the modules around it, in io/, are not in this plan.
 std::set<std::string> names_in_rtl(const char* expression) {
   const std::regex name(expression);
   std::set<std::string> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTL is chosen by the configuration's hash; what the configuration is called says nothing.
+// RTL is chosen by the configuration's hash, not by its name.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
@@ -13,7 +13,7 @@ TEST(RtlChoice, ByHashWhateverTheName) {
   int made = 0;
   for (const std::string name : {"tiny", "small", "base"}) {
     auto config = driver::load_config(name);
-    // A name of its own, and that of another configuration: the device's own hash register is compared when it is made.
+    // A new name, and that of another configuration: the device's own hash register is compared when it is created.
     for (const char* called : {"mine", name == "tiny" ? "small" : "tiny"}) {
       config.name = called;
       cmodel::NullPixels pixels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The instance that a failure names is in the RTL, and its module is the one that is named.
+// The instance that a failure names is in the RTL, and is of the named module.
 #include "testbench/triage/rtl_place.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ std::string module_at(const std::string& instance) {
     std::smatch match;
     if (source.find("begin : " + name) != std::string::npos) continue;
     if (!std::regex_search(source, match, std::regex("(fastsplat_\\w+)[^;]*\\b" + name + " \\("))) return {};
-    // The nearest module's name in front of the instance's.
+    // The name of the nearest module before the instance's.
     const std::string before = match.prefix().str() + match.str();
     const std::regex word("fastsplat_(?!pkg)\\w+");
     for (std::sregex_iterator it(before.begin(), before.end(), word), end; it != end; ++it)

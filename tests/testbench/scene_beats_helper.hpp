@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small scene as the beats a driver would send.
+// A small scene as the beats that a driver would send.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace fastsplat::test {
 
-/// The whole stream but end_frame.
+/// The whole stream without end_frame.
 std::vector<cmodel::Beat> scene_beats(const scene::SceneDescription& description, const cmodel::Config& config);
 
 }  // namespace fastsplat::test

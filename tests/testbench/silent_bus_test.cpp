@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device whose register bus never answers is told, not waited for; so is one that answers a read in another cycle.
+// A device whose register bus never answers is reported, not waited for; so is one that answers a read in another
+// cycle.
 #include <gtest/gtest.h>
 
 #include "cmodel/io/register_map.hpp"
@@ -9,10 +10,10 @@
 namespace fastsplat::testbench {
 namespace {
 
-/// What a device does with reads; it takes no write.
+/// Behaviour of a device on reads; it takes no write.
 enum class Reads { Never, AsThePageSays, ACycleEarly, OneBehindTheOther };
 
-/// Ports as a simulator has them, over a device with a register bus and nothing else.
+/// Ports as in a simulator, for a device that has only a register bus.
 struct SilentTop final : SimulatedTop {
   explicit SilentTop(Reads how) : reads(how) {}
   void eval() override {

@@ -70,7 +70,7 @@ TEST_P(Rtl, RandomStreamsEqualTheModelUnderEveryReadyPattern) {
               static_cast<unsigned long long>(result.total.check.cycles_rtl.value_or(0)));
 }
 
-// Power-up with any words, and a reset in the middle of work, are the same (M-reset-1): memories are wiped (M-reset-4).
+// Power-up with any words equals a reset in the middle of work (M-reset-1): memories are wiped (M-reset-4).
 TEST_P(Rtl, ResetFillsAndPatternsNeverChangeAPixel) {
   const auto config = options().config;
   const auto source = source_of(write_document(config, make_stimulus(config, StimulusClass::Mixed, 9, 300).document));

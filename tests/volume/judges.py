@@ -70,7 +70,7 @@ def nifti_files():
         if number % 4 == 1:
             image.header.set_slope_inter(0.5, -10)
         image.header.set_sform(affine, 1 if number % 5 else 0)
-        # A qform holds no shear: for a turned grid of other spacings it is the nearest.
+        # A qform holds no shear: for a turned grid of other spacings it is the nearest one.
         image.header.set_qform(affine, 1 if number % 5 == 0 or number % 7 == 0 else 0)
         ending = ".img" if kind is nibabel.Nifti1Pair else ".nii.gz" if number % 2 else ".nii"
         path = folder / f"n{number}{ending}"

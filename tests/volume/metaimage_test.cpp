@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MetaImage files written by hand: types, byte orders, compressed, text, separate data, axes, and what must be refused.
+// MetaImage files written by hand: types, byte orders, compressed, text, separate data, axes, and refused ones.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -25,7 +25,7 @@ std::string zlib(const std::string& text) {
 
 class MetaImage : public TemporaryFolder {
  protected:
-  /// A header of these lines with what is missing filled in for 2 x 2 x 2 MET_UCHAR, local.
+  /// A header of these lines, with defaults for 2 x 2 x 2 MET_UCHAR, local.
   static std::string header(const std::string& lines) {
     std::string text = "ObjectType = Image\n";
     for (const std::string line : {"NDims = 3", "DimSize = 2 2 2", "ElementType = MET_UCHAR"}) {
@@ -87,7 +87,7 @@ TEST_F(MetaImage, SpacingAndPlace) {
   EXPECT_EQ(load("ElementSize = 3 2 1\n").spacing, glm::dvec3(3, 2, 1));
   EXPECT_EQ(load("").spacing, glm::dvec3(1.0));
   EXPECT_FALSE(load("").placed);
-  // ITK's +x is left, +y posterior: both are turned round, and the centre is the body's.
+  // ITK's +x is left, +y posterior: both are flipped, and the centre is the body's.
   const Volume plain = load("TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 10 20 30\nElementSpacing = 1 2 4\n");
   EXPECT_THAT(plain.voxels, ElementsAre('4', '3', '2', '1', '8', '7', '6', '5'));
   EXPECT_EQ(plain.centre, glm::dvec3(-10.5, -21, 32));
@@ -118,7 +118,7 @@ TEST_F(MetaImage, SeparateData) {
               HasSubstr("declares more"));
 }
 
-// MetaIO inflates gzip, too, and takes any field first; programs write fields of their own.
+// MetaIO inflates gzip too, and takes any field first; programs write private fields.
 TEST_F(MetaImage, ReadsTheSameFilesAsMetaIo) {
   EXPECT_EQ(load("CompressedData = True\n", gzip("12345678")).voxels, load("", "12345678").voxels);
   const std::string rest = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678";
@@ -162,7 +162,7 @@ TEST_F(MetaImage, EachFieldIsFollowedRefusedOrReported) {
   EXPECT_EQ(load("Offset = 1 2 3\nOrigin = 1  2 3\n").centre, load("Offset = 1 2 3\n").centre);
   EXPECT_THAT(load("ElementOrigin = 1 2 3\nElementDirection = -1 0 0 0 1 0 0 0 1\n").remarks,
               ElementsAre(HasSubstr("ElementOrigin 1 2 3 is not applied"), HasSubstr("ElementDirection -1 0 0")));
-  EXPECT_THAT(load("Size = 3\nDirection = up\n").remarks, ElementsAre());  // a program's own
+  EXPECT_THAT(load("Size = 3\nDirection = up\n").remarks, ElementsAre());  // a private field
 }
 
 TEST_F(MetaImage, DataInSeveralFiles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NIfTI files written by hand: versions, byte orders, scaling, axes, pairs, and everything that must be refused.
+// NIfTI files written by hand: versions, byte orders, scaling, axes, pairs, and refused ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -109,7 +109,7 @@ TEST_F(Nifti, ReadsBothVersionsBothByteOrdersPlainAndGzip) {
       for (const bool packed : {false, true}) {
         const std::string bytes = header.bytes() + data;
         const Volume volume =
-            load_volume(write("v.nii", packed ? gzip(bytes) : bytes).string());  // told by content, not name
+            load_volume(write("v.nii", packed ? gzip(bytes) : bytes).string());  // by content, not name
         EXPECT_THAT(volume.voxels, ElementsAre(-2, 1, 258, 3, -32768, 32767, 6, 7));
         EXPECT_EQ(volume.spacing, glm::dvec3(0.5, 1.25, 3));
         EXPECT_EQ(volume.stored, VoxelType::I16);
@@ -130,7 +130,7 @@ TEST_F(Nifti, ScalingIsApplied) {
 }
 
 TEST_F(Nifti, InvalidScalingIsIgnored) {
-  // Some writers put NaN where nothing was said.
+  // Some writers put NaN into unused fields.
   EXPECT_THAT(load({.slope = NAN, .intercept = NAN}, kBytes).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
 
@@ -143,7 +143,7 @@ TEST_F(Nifti, UnitsBecomeMillimetres) {
 
 TEST_F(Nifti, AxesAreTurnedToRightAnteriorSuperior) {
   EXPECT_THAT(load({.sform = 1}, kBytes).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
-  // x runs to the left, as radiologists like it.
+  // x runs to the left, the radiological convention.
   EXPECT_THAT(load({.sform = 1, .rows = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, kBytes).voxels,
               ElementsAre(2, 1, 4, 3, 6, 5, 8, 7));
   // i runs up, k to the right.
@@ -172,7 +172,7 @@ TEST_F(Nifti, AnUnusableFormIsReportedAndTheOtherUsed) {
   }
 }
 
-// libnifti2 makes what is not finite 0, and shortens a rotation that is too long.
+// libnifti2 makes non-finite values 0, and shortens a rotation that is too long.
 TEST_F(Nifti, AQformThatIsNotARotationIsNotUsed) {
   int unusable = 0;
   for (const int version : {1, 2}) {
@@ -202,7 +202,7 @@ TEST_F(Nifti, WideIntegersAreRead) {
   EXPECT_EQ(labels.stored, VoxelType::I8);
   EXPECT_THAT(load({.datatype = 1280}, bytes_of<std::uint64_t>({0, 1, 2, 3, 4, 5, 6, 70000})).voxels,
               ElementsAre(0, 1, 2, 3, 4, 5, 6, 70000));
-  // Scaled counts are floats like any other; the scale's rounding needs no word.
+  // Scaled counts are floats like any other; the rounding of the scale is not reported.
   const Volume counts =
       load({.datatype = 8, .slope = 0.1}, bytes_of<std::int32_t>({0, 1, 2, 3, 4, 5, 16777217, 100000001}));
   EXPECT_FLOAT_EQ(counts.at(1, 1, 1), 1e7f);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fields of NRRD headers mean: kinds, placement, units, min and max, several files, skipped bytes, unknown fields.
+// Meaning of the fields of NRRD headers: kinds, placement, units, min and max, several files, skipped bytes, unknown
+// fields.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -16,7 +17,7 @@ using ::testing::HasSubstr;
 
 class NrrdMeaning : public TemporaryFolder {
  protected:
-  /// uint8, raw; as many voxels as any of the tests needs, 0, 1, 2...
+  /// uint8, raw; as many voxels as the largest test needs, 0, 1, 2...
   Volume load(const std::string& lines) const {
     return load_volume(write("v.nrrd", "NRRD0005\ntype: uint8\nencoding: raw\n" + lines + "\n" + voxels()).string());
   }
@@ -223,7 +224,7 @@ TEST_F(NrrdMeaning, LinesAndBytesAreSkipped) {
   same("line\n" + gzip("xx" + all), "encoding: gzip\nline skip: 1\nbyte skip: 2\n");
   same(gzip(std::string(352, 'h') + all), "encoding: gzip\nbyte skip: -1\n");
   std::printf("[figure] skips read = %d\n", read);
-  // More than the sizes need is read, and said: the sizes may be wrong.
+  // More bytes than the sizes need are accepted with a warning: the sizes may be wrong.
   EXPECT_THAT(load("dimension: 3\nsizes: 4 3 1\n").remarks,
               ElementsAre(HasSubstr("12 bytes more than needed for 4 x 3 x 1 voxels")));
   EXPECT_THAT(load("dimension: 3\nsizes: 4 5 1\n").remarks, ElementsAre(HasSubstr("4 bytes more")));
@@ -239,11 +240,11 @@ TEST_F(NrrdMeaning, FilesOfOtherFormatsAreNamed) {
   EXPECT_THAT(message("a.vti", "<VTKFile type=\"ImageData\">"), HasSubstr("got VTK"));
   const std::string raw = message("engine_4x3x2_uint16.raw", voxels() + voxels());
   EXPECT_THAT(raw, HasSubstr("NRRD0004 'type: uint16' 'dimension: 3' 'sizes: 4 3 2' 'endian: little' 'encoding: raw'"));
-  // The command that the message names makes the file readable.
+  // The command in the message makes the file readable.
   const auto command = raw.substr(raw.find("printf"));
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
   EXPECT_EQ(load_volume((folder_ / "engine_4x3x2_uint16.raw").string()).dims, glm::ivec3(4, 3, 2));
-  // A name is data there, and no command.
+  // A name is data there, not a command.
   const std::string odd = message("4x3x2 '; touch broken; '%n.raw", voxels());
   ASSERT_EQ(std::system(("cd " + folder_.string() + " && " + odd.substr(odd.find("printf"))).c_str()), 0) << odd;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "broken"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NRRD files written by hand: byte orders, geometry, detached data, and everything that must be refused.
+// NRRD files written by hand: byte orders, geometry, detached data, and refused ones.
 #include <bzlib.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -42,7 +42,7 @@ std::string hex(const std::string& bytes) {
 
 class Nrrd : public TemporaryFolder {
  protected:
-  /// A header of these lines with what is missing filled in for 2 x 2 x 2 uint8, raw.
+  /// A header of these lines, with defaults for 2 x 2 x 2 uint8, raw.
   static std::string header(const std::string& lines, bool attached = true) {
     std::string text = "NRRD0004\n";
     for (const std::string line : {"type: uint8", "dimension: 3", "sizes: 2 2 2", "encoding: raw"}) {
@@ -173,13 +173,13 @@ TEST_F(Nrrd, AnatomicalAxesAreTurnedToRightAnteriorSuperior) {
   const std::string data = "\x01\x02\x03\x04\x05\x06\x07\x08";  // 1 at (0,0,0), x fastest
   const std::string straight = "space directions: (1,0,0) (0,1,0) (0,0,2)\n";
   EXPECT_THAT(load("space: right-anterior-superior\n" + straight, data).voxels, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
-  // +x is left, +y posterior: both are turned round.
+  // +x is left, +y posterior: both are flipped.
   EXPECT_THAT(load("space: left-posterior-superior\n" + straight, data).voxels, ElementsAre(4, 3, 2, 1, 8, 7, 6, 5));
   // The fastest axis runs upwards, the slowest to the right.
   const Volume sagittal = load("space: RAS\nspace directions: (0,0,3) (0,1,0) (2,0,0)\n", data);
   EXPECT_THAT(sagittal.voxels, ElementsAre(1, 5, 3, 7, 2, 6, 4, 8));
   EXPECT_EQ(sagittal.spacing, glm::dvec3(2, 1, 3));
-  // Spaces that are no body's stay as they are.
+  // Spaces that are not a body's stay unchanged.
   EXPECT_THAT(load("space: scanner-xyz\nspace directions: (-1,0,0) (0,1,0) (0,0,2)\n", data).voxels,
               ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
@@ -260,7 +260,7 @@ TEST_F(Nrrd, DamagedGzipIsNamed) {
   EXPECT_EQ(load(lines, good).voxels.size(), 4096u);
   EXPECT_THAT(refused(lines, good.substr(0, good.size() / 2)), HasSubstr("truncated"));
   EXPECT_THAT(refused(lines, good.substr(0, good.size() - 5)),
-              HasSubstr("truncated"));  // all voxels there, checksum not
+              HasSubstr("truncated"));  // all voxels are there, the checksum is not
   std::string flipped = good;
   flipped[good.size() - 6] = static_cast<char>(flipped[good.size() - 6] ^ 1);  // in the checksum
   EXPECT_THAT(refused(lines, flipped), HasSubstr("corrupt"));

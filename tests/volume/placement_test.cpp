@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a scan lies in the body, and how its axes run, is kept through every format.
+// Every format keeps the place of a scan in the body and the directions of its axes.
 #include "scene/volume/placement.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST_F(Placed, IsKeptByEveryFormat) {
 }
 
 TEST_F(Placed, TurnsWholeAxesFirst) {
-  // Of a grid that is turned by 100 degrees about z, 90 are whole axes; 10 are left.
+  // Of a grid that is turned by 100 degrees about z, 90 are whole axes; 10 remain.
   const glm::dmat3 far = turned(0, 100);
   Volume volume =
       make_volume({2, 3, 4}, {1, 2, 3}, VoxelType::U8, [](int i, int j, int k) { return i + 2 * j + 6 * k; });

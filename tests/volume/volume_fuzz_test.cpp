@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeded damage to small volume files: each either loads or is a UserError on one line, and nothing reaches stderr.
+// Seeded damage to small volume files: each either loads or is a UserError on one line, and stderr stays empty.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -28,7 +28,7 @@ class VolumeFuzz : public TemporaryFolder {
 std::string mutated(std::string bytes, std::mt19937& random) {
   const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
   for (std::size_t changes = 1 + below(4); changes-- > 0 && !bytes.empty();) {
-    // Half of the damage goes to the header, where the decisions are.
+    // Half of the damage hits the header, which decides most.
     const std::size_t at = below(below(2) == 0 ? std::min<std::size_t>(bytes.size(), 360) : bytes.size());
     switch (below(6)) {
       case 0:
@@ -118,7 +118,7 @@ TEST_F(VolumeFuzz, LoadsOrRefuses) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   std::printf("[figure] damaged files loaded = %d, refused = %d\n", loaded, refused);
   EXPECT_EQ(loaded + refused, kPerFile * static_cast<int>(originals.size()));
-  EXPECT_GT(loaded, 100);  // damage that does not matter
+  EXPECT_GT(loaded, 100);  // damage without effect
   EXPECT_GT(refused, 500);
 }
 

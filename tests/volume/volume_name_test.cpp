@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a volume is found by what the user calls it.
+// Finding a volume by the user's name for it.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

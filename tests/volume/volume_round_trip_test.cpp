@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What save_volume writes, load_volume reads back the same: every type and format.
+// load_volume reads back what save_volume wrote, in every type and format.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -30,7 +30,7 @@ class RoundTrip : public TemporaryFolder, public ::testing::WithParamInterface<s
 };
 
 TEST_P(RoundTrip, KeepsEveryVoxelAndTheSpacing) {
-  // Names of their own: Clang 14 takes no structured binding into a lambda.
+  // Separate names: Clang 14 captures no structured binding in a lambda.
   const auto& kind = std::get<0>(GetParam());
   const auto& ending = std::get<1>(GetParam());
   const float step = (kind.high - kind.low) / 59.0f;

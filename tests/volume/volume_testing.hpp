@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of scene/volume/ and scene/ share: a folder that goes away, errors as text, small volumes.
+// Shared by the tests of scene/volume/ and scene/: a folder that is removed, errors as text, small volumes.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ inline std::string gzip(const std::string& text) {
   return out.str();
 }
 
-/// Values as they lie in a file.
+/// Values as stored in a file.
 template <typename T>
 std::string bytes_of(std::initializer_list<T> values, bool big_endian = false) {
   std::string out;
@@ -74,7 +74,7 @@ std::string refusal(Call&& call, ExitCode code = ExitCode::Input) {
   return {};
 }
 
-/// Voxels from value(i,j,k); min, max and water filled in.
+/// Voxels from value(i,j,k); min, max and water are computed.
 template <typename Value>
 Volume make_volume(glm::ivec3 dims, glm::dvec3 spacing, VoxelType stored, Value&& value) {
   Volume volume;

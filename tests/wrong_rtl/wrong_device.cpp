@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTL of tiny with a lie at one tap: of every seventh splat of a tile the sheet's words come out inverted.
+// The RTL of tiny with a false tap: every seventh splat of a tile has its sheet words inverted.
 #include "testbench/device/passing_device.hpp"
 #include "testbench/device/rtl_module.hpp"
 #include "testbench/device/verilated_device.hpp"

@@ -4,12 +4,12 @@
 namespace fastsplat::oracle {
 namespace {
 
-/// narrow<RND, SAT>; whether it was cut is counted nowhere (N-6.2-7, N-6.2-14).
+/// narrow<RND, SAT>; no counter records a cut (N-6.2-7, N-6.2-14).
 Wide rnd(Wide value, int from_f, const Words& to) {
   return narrow(Rounding::Rnd, Overflow::Sat, value, from_f, to).word;
 }
 
-/// Between two entries of f fraction bits, `rest` of 2^n on (N-6.2-7).
+/// Between two entries of f fraction bits, at fraction `rest` / 2^n (N-6.2-7).
 Wide line(Wide here, Wide next, Wide rest, int n, int f) { return here - rnd((here - next) * rest, f + n, s(8, f)); }
 
 Wide two_complement(std::uint32_t word) { return static_cast<std::int32_t>(word); }
@@ -18,7 +18,7 @@ Wide magnitude(Wide value) { return value < 0 ? -value : value; }
 
 }  // namespace
 
-// N-6.2-6: how many words a table has, and what each may be.
+// N-6.2-6: the number of words of a table, and the range of each.
 std::int64_t density_table_words(const Symbols& c, int table) {
   const std::int64_t words[] = {4 * ((std::int64_t{1} << c.segment_bits) + 1), 97, 129, 13};
   return table >= 3 && table <= 6 ? words[table - 3] : 0;
@@ -76,7 +76,7 @@ std::array<Wide, 4> classify(const Symbols& c, const DensityTables& tables, cons
   Solid solid{};
   if (patterns.loaded()) {
     solid = solid_at(c, patterns, pixel.X, pixel.Y, pixel.sheet);
-    // N-6.3-11; all from m2 on is made again of the leant g (N-6.3-12).
+    // N-6.3-11; all values from m2 on are recomputed from the tilted g (N-6.3-12).
     if (n > 0) {
       const auto& lean = solid.lean;
       const Wide p = rnd((g[0] * lean[0] + g[1] * lean[1] + g[2] * lean[2]) * root, 30 + e / 2, s(10, 16));

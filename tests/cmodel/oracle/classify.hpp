@@ -16,16 +16,16 @@ namespace fastsplat::oracle {
 /// By load_table's number: 3 CLASSIFY, 4 ROOT, 5 GLINT, 6 LIGHTING, 7 SHEETS.
 using DensityTables = std::map<int, std::vector<std::uint32_t>>;
 
-/// What is known of a pixel: its density, its neighbours' differences as the page has them, its place in the image.
+/// Inputs of a pixel: its density, the differences of its neighbours as on the page, its place in the image.
 struct DensityPixel {
   Wide density = 0, dx = 0, dy = 0, dz = 0;
   Wide X = 0, Y = 0;
   std::uint32_t sheet = 0;
 };
 
-/// Words of a table; 0: no such table, or as many as the frame has sheets.
+/// Number of words of a table; 0: no such table, or as many as the frame has sheets.
 std::int64_t density_table_words(const Symbols& c, int table);
-/// Whether the word may stand there.
+/// Whether the word is legal there.
 bool density_word_fits(const Symbols& c, int table, std::size_t at, std::uint32_t word);
 
 /// S_R, S_G, S_B, S_tau of the pixel, with the frame's pattern if it has one.

@@ -19,23 +19,23 @@ struct Ellipse {
   int nx = 1, ny = 1;     ///< windows
 };
 
-/// The first pixel, relative to the tile, and its way from the centre in 2^-pf pixel.
+/// The first pixel, relative to the tile, and its offset from the centre in 2^-pf pixel.
 struct FirstPixel {
   Wide x0, y0, X, Y;
 };
 FirstPixel first_pixel(const Symbols& c, const Ellipse& e);
 
-/// The part of rule 18 that does not hold, or nullptr.
+/// The part of rule 18 that is broken, or nullptr.
 const char* broken_shape(const Symbols& c, const Ellipse& e);
 
 /// q of the pixels of one record.
 class EllipseForm {
  public:
   EllipseForm(const Symbols& c, const Ellipse& e);
-  /// Of pixel (i, j) from the first one, in steps of 2^-g radial table entries: at least 0, perhaps beyond the last
+  /// For pixel (i, j) from the first one, in steps of 2^-g radial table entries: at least 0, possibly beyond the last
   /// one.
   Wide steps(std::int64_t i, std::int64_t j) const;
-  /// A coefficient left its word: q does not, where rule 18 holds.
+  /// A coefficient left its word; q does not, if rule 18 holds.
   bool wrapped() const { return wrapped_; }
 
  private:

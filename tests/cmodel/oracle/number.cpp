@@ -35,7 +35,7 @@ Words s(int i, int f) { return {-power_of_two(i + f - 1), power_of_two(i + f - 1
 Words one(int f) { return {0, power_of_two(f), f}; }
 
 Narrowed narrow(Rounding rounding, Overflow overflow, Wide value, int from_f, const Words& words) {
-  // The word wanted is value / 2^from_f in units of 2^-f: the fraction n / d.
+  // The result is value / 2^from_f in units of 2^-f: the fraction n / d.
   const int dropped = from_f - words.f;
   const Wide n = dropped < 0 ? value * power_of_two(-dropped) : value;
   const Wide d = dropped > 0 ? power_of_two(dropped) : 1;

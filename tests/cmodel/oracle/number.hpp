@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact numbers and formats of docs/numerics.md, section 1, by the definition: a word is a fraction, rounding is an
-// exact division. Slow on purpose, and shares nothing with the model.
+// exact division. Slow on purpose; shares nothing with the model.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ struct Pixel {
 
 struct RadiusSet {
   std::int64_t rho = 0, base = 0, Ea = 0;
-  std::vector<std::uint32_t> words;  // of the kinds that have no columns (N-4.4-2)
+  std::vector<std::uint32_t> words;  // of the kinds without columns (N-4.4-2)
 };
 
 class Renderer {
@@ -55,11 +55,10 @@ class Renderer {
     if (load.table == 8) patterns.nodes = load.words;
     if (load.table == 9) patterns.pattern = load.words;
     if (load.table != 0) return;
-    // S-table-10: of the other kinds each set keeps its words.
+    // S-table-10: in the other kinds each set keeps its words.
     sets[load.set] = {load.rho, load.base, load.Ea, load.words};
     if (c.index != "rlut" && c.index != "separable") return;
-    // One memory of k x columns words for all sets: what was loaded last is what a column holds (N-4-1, N-4.5-1,
-    // S-table-9).
+    // One memory of k x columns words for all sets: a column holds the words loaded last (N-4-1, N-4.5-1, S-table-9).
     rlut.resize(static_cast<std::size_t>(c.k) * static_cast<std::size_t>(c.columns));
     for (std::int64_t m = 0; m < c.k; ++m)
       for (std::int64_t i = 0; i < load.Ea; ++i)
@@ -91,18 +90,18 @@ class Renderer {
   }
 
   void take(const CullHint& hint) {
-    // S-cull-2: counted, whatever cull.map is. S-cull-3: it covers the next splats that no set covers yet.
+    // S-cull-2: counted for any cull.map. S-cull-3: it covers the next splats that no group covers yet.
     ++out.counts["cull_blocks"];  // N-9-9, in every mode (N-6.1-2)
     if (!culls()) return;
-    // A hidden set's splats are dropped (N-6.1-8).
+    // Splats of a hidden group are dropped (N-6.1-8).
     announced.insert(announced.end(), hint.splats, hidden(hint.x, hint.y, hint.width, hint.height, cell()));
   }
 
   // Culling, section 6.1, pixel by pixel.
   bool culls() const { return c.cull != "off" && tile.mode < 2; }  // N-6.1-2
   int cell() const { return c.cull == "block" ? c.P : 1; }         // N-6.1-3
-  /// Whether all pixels of all cells that the rectangle meets in the tile were frozen two sheets ago (N-6.1-4): what
-  /// the table's words decide (N-6.1-5, N-6.1-7). A rectangle that meets no cell is hidden (N-6.1-6).
+  /// Whether all pixels of all cells that the rectangle meets in the tile were frozen two sheets ago (N-6.1-4), by the
+  /// table's words (N-6.1-5, N-6.1-7). A rectangle that meets no cell is hidden (N-6.1-6).
   bool hidden(Wide x0, Wide y0, Wide width, Wide height, int u) const {
     for (Wide y = 0; y < tile.height; ++y)
       for (Wide x = 0; x < tile.width; ++x) {
@@ -189,7 +188,7 @@ class Renderer {
         Four products;  // N-5-2; what is cut counts (N-9-11)
         for (std::size_t ch = 0; ch < 4; ++ch)
           products[ch] = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
-        // Every sample: composited at once, and nothing is left for the end of the sheet (N-6-12, N-6-13).
+        // Every sample: composited at once; the end of the sheet does nothing (N-6-12, N-6-13).
         if (tile.mode >= 4) {
           if (w > 0) {
             ++out.counts["pixels_composited"];  // N-9-12
@@ -199,21 +198,21 @@ class Renderer {
           for (const Wide value : p.C) sums.push_back(word(value));
           continue;
         }
-        p.hit = true;  // N-9-6: whatever its weight
+        p.hit = true;  // N-9-6: for any weight
         // N-5-3, N-9-11
         for (std::size_t ch = 0; ch < 4; ++ch) {
           p.S[ch] = sat(Rounding::Trn, p.S[ch] + products[ch], c.sf, sums_format, "sheet_saturated");
           sums.push_back(word(p.S[ch]));
         }
       }
-    // Also of windows outside the tile, with the splat's tag (N-9-1, N-9-2).
+    // Includes windows outside the tile, with the splat's tag (N-9-1, N-9-2).
     emit(Kind::Footprint, splat.tag, x0 + i0, y0 + j0, std::move(weights));
     emit((tile.mode == 4 || tile.mode == 5) ? Kind::Composite : Kind::Sheet, splat.tag, x0 + i0, y0 + j0,
          std::move(sums));
   }
 
-  /// Of a tile of densities: at a pixel of it or its halo (N-6.2-3), whose counters count both (N-9-8, N-9-11). Splats
-  /// add to frozen pixels, too (N-6.2-5). Taps show 0 outside the tile (N-9-3).
+  /// In a density tile: at a pixel of it or its halo (N-6.2-3), where counters count both (N-9-8, N-9-11). Splats also
+  /// add to frozen pixels (N-6.2-5). Taps show 0 outside the tile (N-9-3).
   void add_density(const std::uint32_t (&v)[4], Wide x, Wide y, Wide w, std::vector<std::uint32_t>& sums) {
     if (x < -1 || y < -1 || x > tile.width || y > tile.height) {
       sums.insert(sums.end(), 4, 0);
@@ -229,7 +228,7 @@ class Renderer {
     }
   }
 
-  /// Density of a pixel in a sheet (N-6.2-2), 0 where nothing was splatted or there is no sheet (N-6.2-4).
+  /// Density of a pixel in a sheet (N-6.2-2), 0 without splats or without the sheet (N-6.2-4).
   Wide density(std::int64_t of, Wide x, Wide y) const {
     const auto found = density_sheets.find(of);
     if (found == density_sheets.end()) return 0;
@@ -237,8 +236,8 @@ class Renderer {
     return pixel == found->second.end() ? 0 : pixel->second[3];
   }
 
-  /// Sheet `number` between its neighbours, of which those that the tile has not are empty (N-6.2-4). Its Composites
-  /// have its number (N-9-5).
+  /// Sheet `number` between its neighbours; neighbours that the tile lacks are empty (N-6.2-4). Its Composites have its
+  /// number (N-9-5).
   void classify_sheet(std::int64_t number) {
     const std::uint32_t open = sheet;
     sheet = static_cast<std::uint32_t>(number);
@@ -247,7 +246,7 @@ class Renderer {
     sheet = open;
   }
 
-  /// From (-1, -1) on (N-6.2-3). Dirty ones only (N-6.2-5), by pixels of the halo as well (N-9-6).
+  /// From (-1, -1) on (N-6.2-3). Dirty blocks only (N-6.2-5), which pixels of the halo also make (N-9-6).
   void classify_block(std::int64_t number, Wide bx, Wide by) {
     bool dirty = false;
     for (const auto& [at, unused] : density_sheets[number])
@@ -263,7 +262,7 @@ class Renderer {
         }
         DensityPixel pixel{.density = density(number, x, y), .X = tile.x + x, .Y = tile.y + y, .sheet = sheet};
         const auto here = [&](Wide i, Wide j) { return density(number, i, j); };
-        // At the picture's edges to one side, twice (N-6.2-9).
+        // One-sided at the picture's edges, counted twice (N-6.2-9).
         const bool left = pixel.X == 0, right = pixel.X == tile.image_width - 1, above = pixel.Y == 0,
                    below = pixel.Y == tile.image_height - 1;
         pixel.dx = (here(right ? x : x + 1, y) - here(left ? x : x - 1, y)) * (left || right ? 2 : 1);
@@ -278,7 +277,7 @@ class Renderer {
     emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
-  /// Of pixel (i, j) of the footprint, by the page's formula of the kind: rlut N-4-6, separable N-4.5-2, blit2d
+  /// For pixel (i, j) of the footprint, by the page's formula of the kind: rlut N-4-6, separable N-4.5-2, blit2d
   /// N-4.4-1, squared N-4.2-2, squared_elliptic N-4.3-3, linear N-4.1-2. Separable and blit2d read no RADIAL (N-4.5-4,
   /// N-4.4-9).
   Wide weight(const RadiusSet& set, Wide mx, Wide my, std::int64_t i, std::int64_t j) const {
@@ -288,7 +287,7 @@ class Renderer {
                     u(c.wi, c.wf))
           .word;
     if (c.index == "blit2d") return stored(set, mx, my, i, j);
-    // N-3-8: the way from the centre.
+    // N-3-8: the offset from the centre.
     const Wide dx = (i + 1) * Wide{c.K()} - mx - set.rho, dy = (j + 1) * Wide{c.K()} - my - set.rho;
     if (c.index == "squared") return entry(set.words[0] * (dx * dx + dy * dy), int_of(set, 1));
     if (c.index == "squared_elliptic") {
@@ -306,20 +305,20 @@ class Renderer {
     return entry(low * set.words[0], int_of(set, 1));
   }
   static int int_of(const RadiusSet& set, std::size_t word) { return static_cast<int>(set.words[word]); }
-  /// Weight at q entries, f fraction bits (N-4-6); interpolated where the device does (N-4.7-1).
+  /// Weight at q entries, f fraction bits (N-4-6); interpolated if the device does (N-4.7-1).
   Wide entry(Wide q, int f) const {
     const Wide t = floor_divide(q, power_of_two(f));
     if (t >= c.N) return 0;
     const Wide here = radial[static_cast<std::size_t>(t)];
     if (c.interpolate == 0) return here;
-    // N-4.7-2: what is left of q, in steps of 2^-g; N-4.7-3: the weight.
+    // N-4.7-2: the remainder of q, in steps of 2^-g; N-4.7-3: the weight.
     const Wide rest = floor_divide(remainder(q, power_of_two(f)) * power_of_two(c.g), power_of_two(f));
     const Wide next = radial[static_cast<std::size_t>(t) + 1];
     return here - narrow(Rounding::Rnd, Overflow::Sat, (here - next) * rest, c.wf + c.g, s(c.wi + 1, c.wf)).word;
   }
 
-  /// blit2d (N-4.4-1, N-4.4-5). With eightfold symmetry the footprint is looked for: the phases, their mirror images
-  /// and both exchanged, until a pair is met that is stored (N-4.4-3, N-4.4-4).
+  /// blit2d (N-4.4-1, N-4.4-5). With eightfold symmetry the footprint is searched: the phases, their mirror images and
+  /// both exchanged, until a stored pair is found (N-4.4-3, N-4.4-4).
   Wide stored(const RadiusSet& set, Wide mx, Wide my, Wide i, Wide j) const {
     const auto word_of_footprint = [&](Wide number, Wide column, Wide row) {
       if (column < 0 || row < 0 || column >= set.Ea || row >= set.Ea) return Wide{0};
@@ -329,7 +328,7 @@ class Renderer {
     const auto image = [&](Wide m) { return remainder(-m - 2 * set.rho, c.k); };
     const auto mirror = [&](Wide& m, Wide& at) {
       if (m <= image(m)) return;
-      // d(m, i) = (i+1) k - m - rho, of the other sign.
+      // d(m, i) = (i+1) k - m - rho, with the sign reversed.
       const Wide d = -((at + 1) * c.k - m - set.rho);
       m = image(m);
       at = (d + m + set.rho) / c.k - 1;
@@ -389,7 +388,7 @@ class Renderer {
     emit(Kind::Composite, 0, bx, by, std::move(words));
   }
 
-  /// What is composited of a sheet's sums at a pixel of the tile (N-6.3-8).
+  /// The composited value of a sheet's sums at a pixel of the tile (N-6.3-8).
   Four tinted(Four S, Wide x, Wide y) const {
     if (!patterns.loaded() || tile.mode > 1) return S;  // N-6.3-1, N-6.3-10
     const Solid solid = solid_at(c, patterns, tile.x + x, tile.y + y, sheet);
@@ -414,12 +413,12 @@ class Renderer {
       f = left - sat(c.Rf, (left - right) * rem, c.of + b, one(c.of), "never");
       f_bits = c.of;
     }
-    Four slab;  // N-6-3; counted before the pixel is asked whether it is frozen (N-9-13)
+    Four slab;  // N-6-3; counted before the test whether the pixel is frozen (N-9-13)
     for (std::size_t ch = 0; ch < 4; ++ch)
       slab[ch] = sat(c.Ra, S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
     const Wide T = p.C[3];
     if (T < c.eps) return;  // N-6-6
-    // N-6-7; what is cut of a colour counts (N-9-15)
+    // N-6-7; the cut of a colour counts (N-9-15)
     for (std::size_t ch = 0; ch < 3; ++ch) {
       const Wide seen = sat(c.Rl, T * slab[ch], 2 * c.tf, one(c.tf), "never");
       p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1, c.tf), "composite_saturated");
@@ -447,7 +446,7 @@ class Renderer {
     out.tiles.push_back(std::move(picture));
   }
 
-  /// A tap record (N-9-1), behind those before it (N-9-4).
+  /// A tap record (N-9-1), after the earlier ones (N-9-4).
   void emit(Kind kind, std::uint32_t tag, Wide x, Wide y, std::vector<std::uint32_t> payload) {
     out.events.push_back(
         {kind, tile.tile, sheet, tag, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), std::move(payload)});
@@ -464,7 +463,7 @@ class Renderer {
   std::uint32_t sheet = 0;
   std::vector<Pixel> pixels;
   std::vector<std::vector<bool>> frozen;  // the tile's pixels after each of its sheets
-  std::vector<bool> announced;            // of the next splats, whether their set is hidden
+  std::vector<bool> announced;            // of the next splats, whether their group is hidden
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device once more, from docs/numerics.md and docs/stream.md alone: plain loops over whole tiles, exact wide
-// integers, nothing shared with the model. What it says and what the model says must be the same words.
+// The device written again, from docs/numerics.md and docs/stream.md alone: plain loops over whole tiles, exact wide
+// integers, nothing shared with the model. Oracle and model must produce the same words.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
-/// What of it was ellipses: for figures, no word of the device says it.
+/// How much of it was ellipses: for figures only; no word of the device shows it.
 struct EllipseWork {
   std::uint64_t records = 0, windows = 0, weighted = 0;
   std::uint64_t wrapped = 0;  ///< records with a coefficient that left its word
@@ -44,7 +44,7 @@ struct Rendering {
   EllipseWork ellipses;                         ///< the oracle's only
 };
 
-/// Renders a whole stream; throws Refusal where the stream breaks a rule.
+/// Renders a whole stream; throws Refusal if the stream breaks a rule.
 Rendering render(const Symbols& symbols, std::span<const std::uint8_t> bytes);
 
 }  // namespace fastsplat::oracle

@@ -4,12 +4,12 @@
 namespace fastsplat::oracle {
 namespace {
 
-/// narrow<RND, SAT>; whether it was cut is counted nowhere (N-6.3-14).
+/// narrow<RND, SAT>; no counter records a cut (N-6.3-14).
 Wide rnd(Wide value, int from_f, const Words& to) {
   return narrow(Rounding::Rnd, Overflow::Sat, value, from_f, to).word;
 }
 
-/// The upper or lower half of a word, which 16 bits are; as two's complement if they are signed.
+/// The upper or lower 16 bits of a word; as two's complement if they are signed.
 Wide half(std::uint32_t word, bool upper, bool is_signed) {
   const Wide bits = upper ? word / 65536 : word % 65536;
   return is_signed && bits >= 32768 ? bits - 65536 : bits;
@@ -17,7 +17,7 @@ Wide half(std::uint32_t word, bool upper, bool is_signed) {
 
 }  // namespace
 
-// N-6.3-2, N-6.3-3: how many words a table has, and what each may be.
+// N-6.3-2, N-6.3-3: the number of words of a table, and the range of each.
 std::int64_t pattern_table_words(const Symbols& c, int table) {
   const std::int64_t M = std::int64_t{1} << c.node_bits;
   return table == 8 ? 2 * M * M * M : 13;
@@ -41,8 +41,8 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
     i[axis] = floor_divide(at, 4096);
     rest[axis] = remainder(at, 4096);
   }
-  // Channel 0 is v, 1 to 3 are B (N-6.3-2); `axis` from 2 down: what lies between two of the level below (N-6.3-5,
-  // N-6.3-6).
+  // Channel 0 is v, 1 to 3 are B (N-6.3-2). `axis` counts down from 2: each level interpolates two values of the level
+  // below (N-6.3-5, N-6.3-6).
   const auto word = [&](int channel, Wide x, Wide y, Wide z) {
     const auto node = static_cast<std::size_t>(2 * (x + M * (y + M * z)));
     return half(tables.nodes[node + static_cast<std::size_t>(channel / 2)], channel % 2 == 1, channel > 0);

@@ -25,7 +25,7 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
 
 /// Words of table 8 or 9.
 std::int64_t pattern_table_words(const Symbols& c, int table);
-/// Whether the word may stand there.
+/// Whether the word is legal there.
 bool pattern_word_fits(int table, std::size_t at, std::uint32_t word);
 
 }  // namespace fastsplat::oracle

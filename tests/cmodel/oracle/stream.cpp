@@ -14,7 +14,7 @@
 namespace fastsplat::oracle {
 namespace {
 
-// Of a beat.
+// A field of a beat.
 constexpr std::size_t kWords = 8, kBytes = 4 * kWords;
 
 struct Reader {
@@ -39,7 +39,7 @@ struct Reader {
     ++beat;
     return true;
   }
-  /// S-reader-2: the beat that is missing is the one refused.
+  /// S-reader-2: the missing beat is the one refused.
   void need() {
     if (!next()) throw Refusal(beats(), "the stream ends early");
   }
@@ -54,15 +54,15 @@ struct Reader {
     const std::int64_t word = bits(i, first, n), half = std::int64_t{1} << (n - 1);
     return word >= half ? word - 2 * half : word;
   }
-  /// The words from `first` on carry nothing (S-record-3).
+  /// The words from `first` on are zero (S-record-3).
   void empty_from(std::size_t first) const {
     for (std::size_t i = first; i < kWords; ++i) rule(w[i] == 0, "an unnamed word is not zero");
   }
   void only_opcode() const { rule(w[0] < 256, "an unnamed bit of w0 is not zero"); }
 };
 
-/// Words of a radius set, and the largest that each may be: N-4-1, N-4.1-1, N-4.2-1, N-4.3-1, N-4.4-1, N-4.4-3 and
-/// N-4.5-1; S-table-5.
+/// Number of words of a radius set, and the largest value of each: N-4-1, N-4.1-1, N-4.2-1, N-4.3-1, N-4.4-1, N-4.4-3
+/// and N-4.5-1; S-table-5.
 std::int64_t set_words(const Symbols& c, std::int64_t Ea) {
   if (c.index == "linear" || c.index == "squared") return 2;
   if (c.index == "squared_elliptic") return 4;
@@ -120,7 +120,7 @@ TableLoad table_load(Reader& r) {
     }
     largest = static_cast<std::int64_t>(load.table == 1 ? u(c.wi, c.wf).largest : one(c.of).largest);
   }
-  // S-record-2, S-rule-2: eight words a beat, whatever record the beat looks like.
+  // S-record-2, S-rule-2: eight words a beat, even if the beat looks like a record.
   for (std::int64_t done = 0; done < count; done += std::int64_t{kWords}) {
     r.need();
     for (std::size_t i = 0; i < kWords; ++i) {
@@ -156,7 +156,7 @@ TableLoad table_load(Reader& r) {
   return load;
 }
 
-/// What splats and ellipses share (S-splat-2, S-ellipse-2): x and y were read.
+/// The checks that splats and ellipses share (S-splat-2, S-ellipse-2): x and y were read.
 template <class Record>
 void place_and_colour(const Reader& r, Record& record) {
   const Words position = s(r.c.pi, r.c.pf);
@@ -186,7 +186,7 @@ Splat splat(const Reader& r, const std::set<std::int64_t>& sets, std::uint32_t t
 
 /// N-4.6-2: its words.
 Ellipse ellipse(const Reader& r, std::uint32_t tag) {
-  // Every bit has a name but the uppermost four of w3.
+  // Every bit has a name except the uppermost four of w3.
   r.rule(r.w[3] < 268435456, "an unnamed bit of w3 is not zero");
   Ellipse e;
   e.tag = r.w[1];
@@ -259,8 +259,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
       // S-table-12, S-table-13.
       r.rule(!densities || of_densities.size() == 5, "a tile of densities before its tables");
       r.rule(of_patterns.size() != 1, "one table of a pattern without the other");
-      // Who has which mode: N-6-11, N-6.2-1.
-      // S-tile-1.
+      // The modes of each device: N-6-11, N-6.2-1. S-tile-1.
       r.rule(tile.mode <= 2 || (r.c.every_sample != 0 && (tile.mode == 4 || tile.mode == 5)) || densities, "mode");
       // S-tile-4.
       tile.tile = r.w[1];
@@ -282,7 +281,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
 
       std::uint32_t sheets = 0, tag = 0;
       std::optional<std::uint32_t> last_sheet;
-      // S-tile-10: perhaps no sheet, and no splat in a sheet.
+      // S-tile-10: a tile may have no sheet, and a sheet no splat.
       for (r.need(); r.w[0] % 256 != 0x74; r.need()) {
         r.rule(r.w[0] % 256 == 0x53, "begin_sheet or end_tile expected");
         r.only_opcode();
@@ -295,13 +294,13 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
         ++sheets;
         items.emplace_back(SheetStart{sheet});
         std::uint32_t splats = 0;
-        std::uint64_t promised = 0;  // splats up to here are in some set
+        std::uint64_t promised = 0;  // splats up to here are in some group
         for (r.need(); r.w[0] % 256 != 0x73; r.need()) {
           if (r.w[0] % 256 == 0x50) {
             items.emplace_back(splat(r, sets, tag++));
             ++splats;
           } else if (symbols.f > 0 && r.w[0] % 256 == 0x45) {  // N-4.6-1
-            // S-ellipse-1; tag and count are those of the splats, too (S-ellipse-2).
+            // S-ellipse-1; tags and counts include those of splats (S-ellipse-2).
             items.emplace_back(ellipse(r, tag++));
             ++splats;
           } else {
@@ -312,7 +311,7 @@ std::vector<Item> read_stream(const Symbols& symbols, std::span<const std::uint8
             r.rule(r.low(4) >= 1 && r.high(4) >= 1, "an empty cull_block");
             const CullHint hint{static_cast<std::int32_t>(r.w[2]), static_cast<std::int32_t>(r.w[3]),
                                 static_cast<int>(r.low(4)), static_cast<int>(r.high(4)), r.w[5]};
-            // S-cull-2 where it is off; else S-cull-3, S-cull-4.
+            // S-cull-2 if culling is off; else S-cull-3, S-cull-4.
             if (symbols.cull != "off") {
               promised = std::max<std::uint64_t>(promised, splats);
               r.rule(r.w[1] == tag + (promised - splats), "a promise with another tag");

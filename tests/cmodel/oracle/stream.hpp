@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a stream from its bytes by docs/stream.md alone, and refuses what the page refuses.
+// Reads a stream from its bytes by docs/stream.md alone, and refuses illegal ones.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace fastsplat::oracle {
 
-/// The stream breaks a rule; beat is the first one that shows it (the number of beats when the end is missing).
+/// The stream breaks a rule; beat is the first one that shows it (the number of beats if the end is missing).
 struct Refusal : std::runtime_error {
   Refusal(std::uint64_t at, const std::string& rule) : std::runtime_error(rule), beat(at) {}
   std::uint64_t beat;

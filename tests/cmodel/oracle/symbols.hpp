@@ -28,7 +28,7 @@ struct Symbols {
   std::string carry = "xray";
   std::string index = "rlut", symmetry = "off";
   int f = 0;  ///< 0: no ellipses
-  // Of time and registers; no word depends on them (N-2-4).
+  // For time and registers; no word depends on them (N-2-4).
   int C = 0;  ///< 0: P^2
   int counter_bits = 64;
   int every_sample = 0;
@@ -41,7 +41,7 @@ struct Symbols {
 
   /// Weights depend on window phases: centres lie on the snap's grid (N-3-1).
   bool has_phases() const { return index == "rlut" || index == "blit2d" || index == "separable"; }
-  /// Steps of the centres' grid a pixel (N-3-1).
+  /// Steps of the centres' grid per pixel (N-3-1).
   int K() const { return has_phases() ? k : 1 << pf; }
 };
 
@@ -52,7 +52,7 @@ struct Key {
 /// In the order of the page's table, which is the order of the hash (N-2-1).
 std::span<const Key> keys();
 
-/// The keys that may be absent: they follow the others (N-2-1, N-2-3).
+/// The optional keys, which follow the others (N-2-1, N-2-3).
 struct RoundingKey {
   const char* name;
   Rounding Symbols::*member;

@@ -57,7 +57,7 @@ SheetCells sheet_cells(const Cells& cells, const std::vector<std::int64_t>& cand
                     .cells = filled(some)};
         out.sets.push_back(std::move(set));
       };
-      // N-8-78: the first that holds.
+      // N-8-78: the first test that holds.
       const bool each = std::ranges::all_of(all, [&](std::size_t cell) { return enough({cell}); });
       const bool by_row = std::ranges::all_of(rows, enough);
       if (may_hide && each) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheet's splats in sets once more, from docs/numerics.md, section 8, "Sets", alone: which cells of the screen become
-// which sets.
+// A sheet's splats in groups, written again from docs/numerics.md, section 8, "Sets", alone: which cells of the screen
+// become which groups.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct CellSet {
 };
 struct SheetCells {
   std::vector<CellSet> sets;
-  std::vector<std::size_t> others;  ///< with candidates, in no set
+  std::vector<std::size_t> others;  ///< with candidates, in no group
 };
-/// Of candidates by cell, each `windows` windows. `may_hide`: the tile has two sheets before this one. `widest`: Ea of
-/// the widest radius set.
+/// For candidates by cell, each of `windows` windows. `may_hide`: the tile has two sheets before this one. `widest`: Ea
+/// of the widest radius set.
 SheetCells sheet_cells(const Cells& cells, const std::vector<std::int64_t>& candidates, std::int64_t windows,
                        bool may_hide, std::int64_t widest);
 

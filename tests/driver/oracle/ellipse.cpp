@@ -13,7 +13,7 @@ Shape footprint(const Given& given, const Shape& s, EllipseWords& words) {
   const double half = (F.xx - F.yy) / 2, apart = std::hypot(half, F.xy);
   const double least = (F.xx + F.yy) / 2 - apart;
   if (least >= 1.0 / 16) return F;
-  // N-8-45: across, that is along the direction of the lesser root; where both are less, both ways.
+  // N-8-45: across, that is, along the direction of the lesser root; if both are less, both ways.
   words.thin = true;
   const double more = 1.0 / 16 - least;
   const double before = F.xx * F.yy - F.xy * F.xy;

@@ -10,7 +10,7 @@
 
 namespace fastsplat::scene_oracle {
 
-/// Windows of one record, and the pixels that made them: all relative to the pixel in which the centre lies.
+/// Windows of one record, and the pixels that made them: all relative to the pixel that holds the centre.
 struct Span {
   std::int64_t left = 0, top = 0, nx = 0, ny = 0;
   std::int64_t last_column = 0, last_row = 0;  ///< that the footprint has
@@ -31,7 +31,7 @@ bool shaped(const Given& given);
 /// A circle of the frame's only radius set is a splat record.
 bool is_circle_of(const Given& given, const Shape& shape, double r_max);
 
-/// Of the footprint R^2 S around a centre (x, y), words of the image.
+/// For the footprint R^2 S around a centre (x, y), in words of the image.
 EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t x, std::int64_t y);
 
 }  // namespace fastsplat::scene_oracle

@@ -98,13 +98,13 @@ double exposure(const Given& given) {
 
 using Words = std::array<std::int64_t, 4>;  // R, G, B, tau
 
-/// What a sheet gets of a splat.
+/// The part of a splat in one sheet.
 struct Share {
   Words v{};
   bool cut = false;
 };
 
-/// A splat in whole numbers.
+/// A splat in integers.
 struct Splat {
   std::uint64_t order = 0;    ///< in the traversal
   std::int64_t x = 0, y = 0;  ///< 2^-pf pixel, of the image
@@ -185,7 +185,7 @@ class Page {
     const Wide most = power_of_two(symbols_.cf + 4) - 1;
     std::array<Wide, 4> V{};
     bool cut = false, visible = false;
-    // N-8-58: who carries, and runs. N-8-61: what a run begins with.
+    // N-8-58: which splats carry, and runs. N-8-61: the initial remainder of a run.
     const bool carried = symbols_.carry == "on" || (symbols_.carry == "xray" && given_.method == Method::XRay);
     auto& [rest, last, count] = runs_[{real.i, real.j}];
     if (count == 0 || real.g != last + 1) rest.assign(4, 0.5), count = 0;
@@ -224,7 +224,7 @@ class Page {
     splats_.push_back(splat);
   }
 
-  /// What a real is after all techniques (N-8-42), and where it is thin (N-8-46).
+  /// A splat's reals after all techniques (N-8-42), and whether it is thin (N-8-46).
   static double as_shaped(const RealSplat& real, const EllipseWords& words, double value) {
     const auto det = [](const Shape& S) { return S.xx * S.yy - S.xy * S.xy; };
     for (std::size_t i = 1; i < real.shapes.size(); ++i)
@@ -232,7 +232,7 @@ class Page {
     return words.thin ? value * words.factor : value;
   }
 
-  /// What the sheets show of a word on average (N-8-60).
+  /// The sheets' average of a word (N-8-60).
   double shown(Wide V) {
     Wide all = 0;
     const auto area = [&](std::size_t t) {
@@ -254,7 +254,7 @@ class Page {
     return at->second;
   }
 
-  /// One channel of what a record carries of a splat: v_c of N-8-66 and N-8-67.
+  /// One channel of a splat in a record: v_c of N-8-66 and N-8-67.
   void input(Share& share, std::size_t c, Wide part) {
     const auto v = narrow(Rounding::Trn, Overflow::Sat, part, symbols_.cf, oracle::u(0, symbols_.cf));
     share.v[c] = to_int(v.word);
@@ -298,7 +298,7 @@ class Page {
     }
   }
 
-  /// N-8-72: what comes before the tiles, in this order.
+  /// N-8-72: the records before the tiles, in this order.
   void preamble(std::vector<Beat>& beats) const {
     const std::uint64_t hash = oracle::hash(symbols_);
     beats.push_back({0x46U | 2U << 16, 0x31535346U, static_cast<std::uint32_t>(hash),
@@ -316,7 +316,7 @@ class Page {
                      static_cast<std::uint32_t>(words.size()), u32(set.base), 0});
     for (std::size_t i = 0; i < words.size(); ++i) {
       const std::size_t place = i % std::tuple_size_v<Beat>;
-      if (place == 0) beats.emplace_back();  // what no word comes to stays 0
+      if (place == 0) beats.emplace_back();  // entries without a word stay 0
       beats.back()[place] = words[i];
     }
   }
@@ -355,7 +355,7 @@ class Page {
     return beats;
   }
 
-  /// Of one splat in one sheet of one tile.
+  /// The records of one splat in one sheet of one tile.
   void splat_beats(Splat& splat, std::int64_t tile, std::int64_t s, std::int64_t X, std::int64_t Y, std::uint32_t& tag,
                    std::vector<Beat>& records) {
     const auto& [v, cut] = splat.shares[static_cast<std::size_t>(s)];
@@ -440,7 +440,7 @@ class Page {
     std::ranges::for_each(split.others, take);
   }
 
-  /// N-8-73: sheets, splats and tags of a tile; N-8-80 where they go in sets.
+  /// N-8-73: sheets, splats and tags of a tile; N-8-80 if they form groups.
   std::vector<Beat> tile_beats(std::int64_t tile) {
     const std::int64_t X = tile % across() * symbols_.W, Y = tile / across() * symbols_.H;
     const std::int64_t width = std::min<std::int64_t>(symbols_.W, given_.width - X);
@@ -478,7 +478,7 @@ class Page {
   std::map<std::int64_t, double> shown_;
   std::vector<Splat> splats_;
   struct Run {
-    std::vector<double> rest;  ///< what its channels left
+    std::vector<double> rest;  ///< the remainders of its channels
     int last = 0, count = 0;   ///< the last splat's slice; how many splats there are
   };
   std::map<std::pair<int, int>, Run> runs_;  ///< per line of voxels, the last one

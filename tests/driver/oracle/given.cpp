@@ -64,7 +64,7 @@ double densest_line(const volume::Volume& volume, const scene::Classifier& class
   return densest;
 }
 
-/// N-8-39: each technique of the scene as golden makes it, in the order of the page.
+/// N-8-39: each technique of the scene as in golden, in the order of the page.
 void shape(const scene::Scene& scene, const glm::dvec3& world, double u, RealSplat& splat) {
   const scene::SceneDescription& description = scene.description;
   const double side = splat.s * u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What docs/numerics.md, section 8, takes as given for a frame, by the names of the page; nothing of it is rounded yet.
+// The inputs that docs/numerics.md, section 8, takes as given for a frame, by the names of the page; all unrounded.
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ struct Given {
   double o = 0.0;                           ///< opacity_scale
   double L = 0.0;                           ///< densest line of voxels
   std::array<double, 8> scale_at_corner{};  ///< pixels per mm at the corners of the box of voxel centres
-  bool shapes = false;                      ///< the view or a technique asks for shapes
-  double slabs_before = 0.0;                ///< that grown kernels ask for, nearer and
+  bool shapes = false;                      ///< the view or a technique requires shapes
+  double slabs_before = 0.0;                ///< for grown kernels: nearer and
   double slabs_behind = 0.0;                ///< farther than all others
   int grid_sheets = 0;                      ///< voxels along the axis of the slices
   std::vector<RealSplat> splats;            ///< in traversal order

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables that the driver makes, from docs/numerics.md, sections 4, 6 and 8, alone.
+// The driver's tables, from docs/numerics.md, sections 4, 6 and 8, alone.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct RadiusSet {
 RadiusSet radius_set(const oracle::Symbols& symbols, double r);
 
 std::vector<std::uint32_t> rlut(const oracle::Symbols& symbols, const RadiusSet& set);
-/// What the set loads, whatever the kind of index.
+/// The tables that the set loads, in every kind of index.
 std::vector<std::uint32_t> set_words(const Given& given, const RadiusSet& set);
 std::vector<std::uint32_t> radial(const Given& given);
 std::vector<std::uint32_t> factor(const oracle::Symbols& symbols);

@@ -131,7 +131,7 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
       double m = square, power = 1.0;  // square = m power^2, m in 1..4
       for (; m >= 4.0; m /= 4.0) power *= 2.0;
       for (; m < 1.0; m *= 4.0) power /= 2.0;
-      // Between 1 and 4 nothing jumps but where m does: its own last bit is what may differ.
+      // Between 1 and 4 only m jumps: its own last bit is the part that may differ.
       m = trn(m, 16, closeness);
       const double r = between(root_, (m - 1.0) * 32.0, 14, closeness);
       length = n(m * r * power, 24, 0.0, largest(5, 24), closeness);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel of a sheet of densities once more, for the oracle of the mixtures: docs/errors.md, section 1, "Densities",
-// and docs/numerics.md, sections 6.2 and 8.
+// A pixel of a sheet of densities written again, for the oracle of the mixtures: docs/errors.md, section 1,
+// "Densities", and docs/numerics.md, sections 6.2 and 8.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ class Frame {
     if (config_.interpolates()) return on_line(q, t, closeness);
     const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
     if (!mixture_.device(Step::Weight)) return footprint(at / n);
-    // In this order: where `at` is the entry's own place, nothing but the entry is left.
+    // In this order: if `at` is the entry's own place, only the entry remains.
     return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
   }
 
@@ -62,7 +62,7 @@ class Frame {
     return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
   }
 
-  /// Every sample is composited: no sums.
+  /// Every sample is composited: there are no sums.
   bool samples() const { return scene_.description.method == scene::Method::Westover; }
 
   void cut_sum(Values& sums) const {
@@ -160,7 +160,7 @@ class Frame {
     return near >= std::floor(static_cast<double>(std::floor(q))) + 1.0 ? std::nextafter(near, 0.0) : near;
   }
 
-  /// Steps distance to weight of blit2d and separable: only the last does anything.
+  /// Steps distance to weight of blit2d and separable: only the last has an effect.
   double read(double dx, double dy, double radius, Closeness& closeness) const {
     const double u = (dx * dx + dy * dy) / (radius * radius);
     compare(u, 1.0, 0, closeness);
@@ -206,7 +206,7 @@ class Frame {
   std::vector<double> radial_, factor_;
 };
 
-/// All sheets of all pixels first: what a pixel becomes hangs on its neighbours.
+/// All sheets of all pixels first: a pixel depends on its neighbours.
 std::vector<std::array<double, 4>> of_densities(const scene::Scene& scene, const cmodel::Config& config,
                                                 const Mixture& mixture, const Frame& frame,
                                                 const std::vector<Splat>& splats, std::size_t sheets,
@@ -238,7 +238,7 @@ std::vector<std::array<double, 4>> of_densities(const scene::Scene& scene, const
     for (int x = 0; x < width; ++x) {
       Pixel pixel;
       const auto d = [&](std::size_t s, int i, int j) { return s < sheets ? sums[s][at(i, j)][3] : 0.0; };
-      // Beyond the picture a pixel stands for its neighbour, and what is left counts twice.
+      // Beyond the picture a pixel stands for its neighbour, and the remaining difference counts twice.
       const int left = x == 0 ? 0 : x - 1, right = x + 1 == width ? x : x + 1, above = y == 0 ? 0 : y - 1,
                 below = y + 1 == height ? y : y + 1;
       for (const std::size_t i : {at(x, y), at(left, y), at(right, y), at(x, above), at(x, below)})

@@ -14,16 +14,16 @@ double power_of_two(int exponent) {
                       : static_cast<double>(std::int64_t{1} << exponent);
 }
 
-/// A number of this page is some ten operations old, a sum of n of them n 2^-53 more: 1024 of a double's last bits, of
-/// the value or of 1 where a difference made it small, are never reached by less than a thousand splats at a pixel.
-/// 10^-9 of a step on top, for words so short that it is nothing.
+/// A number of this page is some ten operations old, a sum of n of them n 2^-53 more. Fewer than a thousand splats at a
+/// pixel never reach 1024 of a double's last bits, of the value or of 1 where a difference made it small. 10^-9 of a
+/// step is added, for words so short that it is negligible.
 double doubt(double value, int bits) { return 1e-9 + std::max(1.0, std::abs(value)) * power_of_two(bits - 53 + 10); }
 
 }  // namespace
 
 void compare(double value, double edge, int bits, Closeness& closeness) {
   const double apart = std::abs(value - edge) * power_of_two(bits);
-  // Exactly there is where words are: what they decide does not hang on an order of operations.
+  // Values on words are exact: their decisions do not depend on the order of operations.
   if (apart != 0.0 && apart < doubt(value, bits)) closeness.close = true;
 }
 

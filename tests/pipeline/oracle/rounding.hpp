@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the oracle of the mixtures rounds with: docs/numerics.md, section 1, for numbers that need not be words.
+// Rounding for the oracle of the mixtures: docs/numerics.md, section 1, for numbers that need not be words.
 #pragma once
 
 #include "cmodel/numbers/narrow.hpp"
@@ -7,13 +7,13 @@
 namespace fastsplat::stages::oracle {
 
 /// Whether a value decides something (a rounding, a comparison) so closely that another order of the same operations
-/// may decide it otherwise. Words that lie exactly on the edge (half a step is a tie) are not close: they are exact.
+/// may decide otherwise. Words exactly on the edge (half a step is a tie) are not close: they are exact.
 struct Closeness {
   bool close = false;
   void operator|=(const Closeness& other) { close = close || other.close; }
 };
 
-/// Notes it where `value` is nearer to `edge` than its own last bits, in units of 2^-bits, can be trusted.
+/// Records that `value` is nearer to `edge` than its own last bits, in units of 2^-bits, can be trusted.
 void compare(double value, double edge, int bits, Closeness& closeness);
 
 /// floor(v 2^bits + 1/2) 2^-bits.

@@ -145,7 +145,7 @@ class Steps {
       rest.of[c] = whole > most ? 0.0 : t - shown_(word);
       v[c] = std::ldexp(word, -cf);
     }
-    closeness |= rest.closeness;  // and so for all splats behind it in this run
+    closeness |= rest.closeness;  // and so for all later splats in this run
     return v;
   }
 

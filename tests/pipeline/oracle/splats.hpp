@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first seven steps once more, for the oracle of the mixtures: from a voxel's splat to what each sheet gets of it.
+// The first seven steps written again, for the oracle of the mixtures: from a voxel's splat to its part in each sheet.
 #pragma once
 
 #include <array>

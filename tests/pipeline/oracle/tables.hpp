@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables and radius sets of a frame once more, for the oracle of the mixtures: docs/numerics.md, sections 4, 6, 8.
+// The tables and radius sets of a frame written again, for the oracle of the mixtures: docs/numerics.md, sections 4, 6,
+// 8.
 #pragma once
 
 #include <map>
@@ -21,7 +22,7 @@ struct Scale {
 };
 Scale scale_of(double v);
 
-/// What RADIAL[t] stands for where it is interpolated.
+/// The value of RADIAL[t] if it is interpolated.
 double line_end(double a, double kernel_radius, const cmodel::Config& config, int t);
 /// RADIAL[t], as values.
 std::vector<double> radial_table(double a, double kernel_radius, const cmodel::Config& config);
@@ -31,7 +32,7 @@ std::vector<double> factor_table(const cmodel::Config& config);
 /// Section 6, between the entries of FACTOR; `tau` need not be a word.
 double interpolated(const std::vector<double>& factor, double tau, const cmodel::Config& config, Closeness& closeness);
 
-/// shown(V): what the sheets show of a word.
+/// shown(V): the sheets' average of a word.
 class Shown {
  public:
   Shown(std::vector<double> radial, const cmodel::Config& config) : radial_(std::move(radial)), config_(config) {}

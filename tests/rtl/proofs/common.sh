@@ -12,7 +12,7 @@ here="$source/tests/rtl/proofs"
 passed_over() {
   case $1 in "${FASTSPLAT_PROVE_ONLY:-$1}" | "${FASTSPLAT_PROVE_ONLY:-$1}"_*) return 1 ;; esac
 }
-# A script that proved nothing has not passed.
+# A script that proved nothing fails.
 trap 'status=$?; [ $status -ne 0 ] || [ -s "$work/proofs.txt" ] || { echo "$0: nothing proved${FASTSPLAT_PROVE_ONLY:+, there is no unit $FASTSPLAT_PROVE_ONLY here}"; exit 1; }' EXIT
 
 seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to - from }'; }

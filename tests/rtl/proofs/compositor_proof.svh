@@ -99,9 +99,10 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_shown_q <= 1'b0;
 end
 
-// What dirty_map_proof.svh, composite_lane_proof.svh, pixel_out_proof.svh and core_proof.svh have: a block comes back four cycles
-// later at the earliest, and then no other came between; a lane holds what it has without a block; all is still while the picture is wiped or sent; pixel out sends no row twice; a tile has one mode and size, and begins when the
-// one before it was sent.
+// Assumed, and proved in dirty_map_proof.svh, composite_lane_proof.svh, pixel_out_proof.svh and core_proof.svh: a block
+// comes back four cycles later at the earliest, and then no other came between; a lane holds its state without a block;
+// all is still while the picture is wiped or sent; pixel out sends no row twice; a tile has one mode and size, and
+// begins when the previous one was sent.
 always @* begin
   if (rst_ni) begin
     assume (!(issue && walk_idle));

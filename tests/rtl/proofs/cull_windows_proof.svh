@@ -31,7 +31,7 @@ end
 always @* begin
   // In two rows of the block map, whatever the row's length (M-cull-5).
   assert (seen_o == (there_i & (culls_i ? f_seen : '1)));
-  // One of two windows of a tile that ends within a block; all of a row, by an opaque block and the tile's edge.
+  // One of two windows of a tile that ends within a block; a whole row, by an opaque block and the tile's edge.
   cover (culls_i && &there_i && seen_o != '0 && seen_o != '1 && 32'(width_i) % F_P != 0);
   cover (culls_i && &there_i && seen_o == '0 && f_map != '1 && f_y < 0);
   cover (!culls_i && &there_i && &seen_o && &f_map);

@@ -91,8 +91,8 @@ always @(posedge clk_i) begin
   end
 end
 
-// What core promises (core_proof.svh): the token passes c4, and five cycles later W; no window marks a sheet behind its
-// token; sheets end in turn.
+// Assumed of core (proved in core_proof.svh): the token passes c4, and five cycles later W; no window marks a sheet
+// behind its token; sheets end in turn.
 logic [1:0] f_ended;
 assign f_ended = {f_token_q[1] != '0 || f_full_q[1], f_token_q[0] != '0 || f_full_q[0]};
 always @* begin

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fetch master does on the memory's port (docs/microarchitecture.md, "Fetch"), put inside fastsplat_fetch by prove_fetch.sh; the assertions of
-// the module are proved with it. Its queues are proved by themselves: here they say anything, but are not overfilled.
+// The fetch master on the memory's port (docs/microarchitecture.md, "Fetch"), put inside fastsplat_fetch by
+// prove_fetch.sh; the assertions of the module are proved with it. Its queues are proved separately: here their outputs
+// are free, but they are never overfilled.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
-// The memory answers what it was asked for: as many beats, as many bursts, the last beat of all ends the last burst.
-logic [DB-1:0] f_due_q;   // beats of bursts that were made, and have not come
+// The memory answers its requests: as many beats, as many bursts; the last beat of all ends the last burst.
+logic [DB-1:0] f_due_q;   // beats of bursts that were requested, and have not come
 logic [DB-1:0] f_owed;    // of them, those that were asked for; bursts likewise
 logic [OB-1:0] f_asked;
 assign f_owed = f_due_q - (m_axi_arvalid ? DB'(m_axi_arlen) + DB'(1) : DB'(0));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What check promises of the beats that it passes to decode, whatever its source sends: asserted in stream_check_proof.svh, assumed in
-// stream_decode_proof.svh (F_PROMISE). Who includes it says what passes between the two: f_passed_valid and so on.
-// The grammar as decode sees it: 0 in the frame, 1 in a tile, 2 in a sheet.
+// Stream invariants: properties of the beats that check passes to decode, for any source. Asserted in
+// stream_check_proof.svh, assumed in stream_decode_proof.svh (F_INVARIANT). The including file defines the signals
+// between the two: f_passed_valid and so on. The grammar as decode sees it: 0 in the frame, 1 in a tile, 2 in a sheet.
 logic [1:0] f_passed_place_q;
 logic [31:0] f_words_left_q;  // of the table announced last
 logic [fastsplat_pkg::RLUT_SETS-1:0] f_passed_sets_q;

@@ -67,8 +67,9 @@ always @(posedge clk_i) begin
   if (!rst_ni) f_shown_q <= 1'b0;
 end
 
-// What others promise: the walk picks nothing (no block was marked); a lane shows in k5 what it has in k6 (composite_lane_proof.svh), and holds it without
-// a sample; all is still while the picture is wiped or sent; a window waits if it lies over that of the cycle before (stream_decode_proof.svh).
+// Assumed of other parts: the walk picks nothing (no block was marked); a lane shows in k5 what it has in k6
+// (composite_lane_proof.svh), and holds it without a sample; all is still while the picture is wiped or sent; a window
+// waits if it lies over that of the cycle before (stream_decode_proof.svh).
 always @* begin
   assume (every_sample_i);
   if (rst_ni) begin

@@ -10,7 +10,7 @@ always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
 `ifdef F_FEW_BEATS
-// Where something has to be found, not proved: one good beat of each kind, and one that is none.
+// For covers, where z3 must find a beat: one good beat of each kind, and one illegal beat.
 (* anyseq *) logic [3:0] f_which;
 logic [fastsplat_pkg::BEAT_BITS-1:0] f_few;
 always @* begin
@@ -240,7 +240,8 @@ always @(posedge clk_i) begin
   end
 end
 
-// Cycles without ready in which nobody else is to blame: one for a refusal; for a soft reset both beats, end_sheet, end_tile and its end.
+// Cycles without ready that check itself causes: one for a refusal; for a soft reset both beats, end_sheet, end_tile
+// and its end.
 logic [2:0] f_waits_q, f_phase;
 always @(posedge clk_i) f_waits_q <= rst_ni && enable_i && ready_i && idle_i && !reset_i && !ready_o ? f_waits_q + 3'(f_waits_q != '1) : '0;
 assign f_phase = f_next_q ? 3'd0 : f_have_q ? 3'd1 : f_place_q == 2'd3 ? 3'd2 : f_place_q == 2'd2 ? 3'd3 : 3'd4;
@@ -318,7 +319,7 @@ always @* begin
     assert (error_o == f_error_q);
     assert (error_rule_o == f_error_rule_q && error_opcode_o == f_error_opcode_q && error_beat_o == f_error_number_q);
     assert (busy_o == (f_next_q || f_have_q || f_closes || f_soft_q));
-    // Nobody waits for long.
+    // No wait is long.
     assert (f_waits_q <= 3'd5 && (f_soft_q || f_have_q || f_error_q || f_waits_q == '0 || f_place_q == 2'd0));
 
     // For induction: the registers of check and of the specification say the same.

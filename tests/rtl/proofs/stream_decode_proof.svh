@@ -144,7 +144,7 @@ always @(posedge clk_i) begin
     f_loaded_q <= '0;
   end
 end
-// What comes back was out, and the open sheet's buffer does not: prove_core.sh.
+// A buffer that comes back was out, and the open sheet's buffer does not: prove_core.sh.
 always @* begin
   if (free_i) assume (f_busy_q[free_buffer_i] && !(f_place_q == 2'd2 && free_buffer_i == f_buffer_q));
 end
@@ -186,7 +186,7 @@ always @(posedge clk_i) begin
     assert (!tile_end_o || tile_aborted_o == f_aborted_q);
     assert (frame_end_o == (f_done && !f_payload && f_opcode == 8'h66));
     assert (tile_open_o == (f_place_q != 2'd0));
-    // Who waits, and for what.
+    // Waits, and their causes.
     assert (stall_input_o == !f_have_q);
     assert (stall_table_o == (f_have_q && f_payload));
     assert (stall_buffer_o == (f_have_q && !f_payload && f_opcode == 8'h53 && f_waits));
@@ -225,7 +225,8 @@ always @(posedge clk_i) begin
 
     // For induction: the registers of decode and of the specification say the same.
     assert (!f_have_q || (payload_q == f_payload_q && aborted_q == f_aborted_q));
-    // The beat in the register is such as check passes, and lies between what was passed and what was carried out.
+    // The beat in the register satisfies the stream invariants, and lies between the beats passed and those carried
+    // out.
     if (f_payload) begin
       assert (f_place_q == 2'd0 && f_left_q != '0);
       assert (f_words_left_q == (f_left_q > 32'd8 - 32'(f_word_q) ? f_left_q - (32'd8 - 32'(f_word_q)) : '0));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: read.sh EMIT_PACKAGE SOURCE_DIR FOLDER: read.mjs for configurations that have every feature between them. Packages of npm
-# go into FOLDER.
+# usage: read.sh EMIT_PACKAGE SOURCE_DIR FOLDER: read.mjs for configurations that together have every feature. npm's
+# packages go into FOLDER.
 set -euo pipefail
 emit=$1 source=$2 folder=$3
 source "$source/tools/helpers/npm.sh"

@@ -46,8 +46,8 @@ assign f_passed_data = data_o;
 assign f_passed_payload = payload_o;
 assign f_passed_aborted = aborted_o;
 assign f_passed_extent = extent_o;
-`define F_PROMISE(ALWAYS) assert (ALWAYS)
-`include "judged_beats.svh"
+`define F_INVARIANT(ALWAYS) assert (ALWAYS)
+`include "stream_invariants.svh"
 
 // The beats that were taken and did not pass yet: the elder is checked (M-check-1).
 logic f_next_q, f_have_q;

@@ -16,8 +16,8 @@ assign f_passed_data = data_i;
 assign f_passed_payload = payload_i;
 assign f_passed_aborted = aborted_i;
 assign f_passed_extent = extent_i;
-`define F_PROMISE(ALWAYS) assume (ALWAYS)
-`include "judged_beats.svh"
+`define F_INVARIANT(ALWAYS) assume (ALWAYS)
+`include "stream_invariants.svh"
 
 `ifdef F_FEW_BEATS
 // To see a fault of the wait a source and a compositor that are always ready will do.

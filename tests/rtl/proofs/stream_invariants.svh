@@ -51,30 +51,30 @@ end
 
 always @* begin
   if (f_started && rst_ni) begin
-    if (f_set_passed_q) `F_PROMISE(f_passed_extent == f_padded(f_rho_passed_q));
+    if (f_set_passed_q) `F_INVARIANT(f_passed_extent == f_padded(f_rho_passed_q));
     if (f_passed_valid) begin
       if (f_passed_payload) begin
         // Payload as announced.
-        `F_PROMISE(f_passed_place_q == 2'd0 && f_words_left_q != '0 && !f_passed_aborted);
+        `F_INVARIANT(f_passed_place_q == 2'd0 && f_words_left_q != '0 && !f_passed_aborted);
       end else begin
-        `F_PROMISE(f_words_left_q == '0 || f_passed_opcode == 8'h46);
-        `F_PROMISE(!f_passed_aborted || f_passed_opcode == 8'h74);
+        `F_INVARIANT(f_words_left_q == '0 || f_passed_opcode == 8'h46);
+        `F_INVARIANT(!f_passed_aborted || f_passed_opcode == 8'h74);
         case (f_passed_opcode)
-          8'h46, 8'h4C, 8'h54, 8'h66: `F_PROMISE(f_passed_place_q == 2'd0);
-          8'h53, 8'h74: `F_PROMISE(f_passed_place_q == 2'd1);
-          8'h50, 8'h43, 8'h73: `F_PROMISE(f_passed_place_q == 2'd2);
-          default: `F_PROMISE(1'b0);
+          8'h46, 8'h4C, 8'h54, 8'h66: `F_INVARIANT(f_passed_place_q == 2'd0);
+          8'h53, 8'h74: `F_INVARIANT(f_passed_place_q == 2'd1);
+          8'h50, 8'h43, 8'h73: `F_INVARIANT(f_passed_place_q == 2'd2);
+          default: `F_INVARIANT(1'b0);
         endcase
         if (f_passed_opcode == 8'h4C) begin
-          `F_PROMISE(f_passed_data[127:96] != '0 && f_passed_data[15:8] <= 8'd2);
+          `F_INVARIANT(f_passed_data[127:96] != '0 && f_passed_data[15:8] <= 8'd2);
           if (f_passed_data[15:8] == 8'd0) begin
-            `F_PROMISE(f_passed_data[63:32] < fastsplat_pkg::RLUT_SETS);
-            `F_PROMISE(f_passed_data[64+:fastsplat_pkg::RHO_BITS] != '0 && f_passed_data[64+:fastsplat_pkg::RHO_BITS] <= F_RHO);
-            `F_PROMISE(f_passed_data[127:96] == 32'(f_padded(f_passed_data[64+:fastsplat_pkg::RHO_BITS])) * 32'(fastsplat_pkg::PHASES));
+            `F_INVARIANT(f_passed_data[63:32] < fastsplat_pkg::RLUT_SETS);
+            `F_INVARIANT(f_passed_data[64+:fastsplat_pkg::RHO_BITS] != '0 && f_passed_data[64+:fastsplat_pkg::RHO_BITS] <= F_RHO);
+            `F_INVARIANT(f_passed_data[127:96] == 32'(f_padded(f_passed_data[64+:fastsplat_pkg::RHO_BITS])) * 32'(fastsplat_pkg::PHASES));
           end
         end
         if (f_passed_opcode == 8'h50)
-          `F_PROMISE(f_passed_data[15:8] < fastsplat_pkg::RLUT_SETS && f_passed_sets_q[f_passed_data[8+:fastsplat_pkg::SET_BITS]]);
+          `F_INVARIANT(f_passed_data[15:8] < fastsplat_pkg::RLUT_SETS && f_passed_sets_q[f_passed_data[8+:fastsplat_pkg::SET_BITS]]);
       end
     end
   end

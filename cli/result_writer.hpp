@@ -13,7 +13,7 @@ namespace fastsplat::cli {
 
 class ResultWriter {
  public:
-  /// Calls `write`. A UserError from it is kept for tell(); other exceptions propagate.
+  /// Calls `write`. A UserError from it is kept for report_failures(); other exceptions propagate.
   void write(const std::function<void()>& write);
 
   /// Error messages of the results that could not be written.

@@ -15,17 +15,17 @@ namespace fastsplat::testbench {
 
 struct FailureReport {
   std::string original;    ///< first divergence of the original stream
-  std::string divergence;  ///< that of the small one: stage, place, both values, bit difference; or what the device did
-  std::string operands;    ///< what the model computed it from; may be empty
-  std::optional<RtlPlace> place;  ///< what makes the word that diverged
+  std::string divergence;  ///< of the small stream: stage, place, both values, bit difference; or the device's behaviour
+  std::string operands;    ///< the model's operands; may be empty
+  std::optional<RtlPlace> place;  ///< the module and instance that make the diverging word
   ShrinkReport shrink;
   std::uint64_t wave_from = 0, wave_to = 0;  ///< cycles of the waveform
-  std::string no_waveform;                   ///< why there is none although it was asked for
+  std::string no_waveform;                   ///< why the requested waveform is missing
   VerifyOptions options;                     ///< of the replay: they fail with the small stream
   StreamDocument document;
 };
 
-/// The first difference of a run that failed, in words: stage, place, both values; or what the device did.
+/// The first difference of a run that failed, as text: stage, place, both values; or the device's behaviour.
 std::string first_divergence(const VerifyResult& result, const cmodel::Config& config);
 
 /// Runs a failing stream again, smaller and smaller (at most `most_runs` times), and reports the smallest. Writes the

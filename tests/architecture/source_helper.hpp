@@ -51,7 +51,7 @@ std::string room_of(const std::string& path, const Arrows& arrows);
 /// includes seen.
 std::vector<std::string> arrow_offences(const std::vector<SourceFile>& files, const Arrows& arrows, int& checked);
 
-/// Include cycles, as "a.hpp -> b.hpp -> a.hpp"; empty if there are none.
+/// Include cycles, as "a.hpp -> b.hpp -> a.hpp"; empty without cycles.
 std::string include_ring(const std::vector<SourceFile>& files);
 
 /// Words that an integer device must not contain.

@@ -18,7 +18,7 @@
 namespace fastsplat::test {
 namespace {
 
-/// Names of `fastsplat_pkg::` in rtl/, without those that narrow.svh builds from a site's name.
+/// Names of `fastsplat_pkg::` in rtl/, except names that narrow.svh builds from a site's name.
 std::set<std::string> names_read() {
   std::set<std::string> names;
   static const std::regex use(R"(fastsplat_pkg::([A-Za-z_0-9]*[A-Za-z0-9])\b)");

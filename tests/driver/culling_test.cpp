@@ -155,7 +155,7 @@ TEST(CulledFrames, CycleModelCountsAsTheModel) {
   }
 }
 
-// The device draws the splats that it took, minus those that it then hid one by one.
+// The device draws the splats that it took, minus the splats that it then hid one by one.
 TEST(CulledFrames, ShareDrawnLeavesOutHiddenSplats) {
   CullRow off, row;
   off.counters.splats = 100;

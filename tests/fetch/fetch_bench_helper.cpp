@@ -77,7 +77,7 @@ class Bench {
     if (out_.finding.empty()) out_.finding = "cycle " + std::to_string(cycle_) + ": " + what;
   }
   /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching"; M-fetch-19): `stop` stays until the
-  /// device is at rest, and what verdicts come before that are no errors (M-fetch-21).
+  /// device is at rest, and verdicts before that are not errors (M-fetch-21).
   void recover() {
     if (top_->busy != 0) return;
     if (!resetting_) {

@@ -21,7 +21,7 @@ enum class FetchFault {
 };
 
 /// How fastsplat_fetch is built: by default, or with bursts of 4 beats, two of them under way, room
-/// for 8 beats and for 8 sets that are not judged.
+/// for 8 beats and for 8 groups without a verdict.
 enum class FetchBuild { Default, Narrow };
 
 /// What lies in memory and what the device answers.
@@ -29,8 +29,8 @@ struct FetchStream {
   std::vector<cmodel::Beat> beats;
   std::vector<cmodel::FetchCommand> commands;
   std::uint64_t address = 0;
-  std::vector<int> set_of;   ///< by beat: the cull_block that judges it, by number; -1: none
-  std::vector<int> block;    ///< by beat: its number, if it is a cull_block that is judged; else -1
+  std::vector<int> set_of;   ///< by beat: the cull_block that decides on it, by number; -1: none
+  std::vector<int> block;    ///< by beat: its number, if it is a cull_block with a verdict; else -1
   std::vector<bool> hidden;  ///< by cull_block
   /// By cull_block: its splats are asked for whatever the verdict, for no set of the command before was hidden.
   std::vector<bool> trusted;
@@ -60,7 +60,7 @@ struct FetchRun {
   /// `stop` is lowered, and everything is sent once more, without an error.
   bool again = false;
   unsigned ahead = 6;                  ///< sets that the device takes before the verdict of the first of them
-  std::size_t mute = ~std::size_t{0};  ///< sets that are judged; then the device refuses a beat, and judges no more
+  std::size_t mute = ~std::size_t{0};  ///< groups with a verdict; then the device refuses a beat and reports no more verdicts
   std::uint64_t stray = 0;             ///< from this cycle on, a verdict when no set waits for one; 0: never
 };
 
@@ -83,7 +83,7 @@ class FetchDevice {
   virtual void restart() = 0;
 };
 
-/// Takes a beat when `run.ready` says so, and tells verdicts as early as a device can, or `run.verdict_wait` later.
+/// Takes a beat when `run.ready` says so, and reports verdicts as early as a device can, or `run.verdict_wait` later.
 class PlayedDevice final : public FetchDevice {
  public:
   PlayedDevice(const FetchStream& stream, const FetchRun& run) : stream_(stream), run_(run), wanted_(stream.wanted()) {}

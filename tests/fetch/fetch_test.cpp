@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fetch master (docs/microarchitecture.md, "Fetch"): the right beats under any memory, no set asked for that is
-// hidden or not judged, every cycle where the memory is regular, errors told; and each planted fault seen.
+// hidden or undecided, every cycle if the memory is regular, errors reported; and each planted fault seen.
 #include <gtest/gtest.h>
 
 #include <cstdio>

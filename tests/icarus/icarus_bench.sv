@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plays recorded streams to the device in a four-state simulator and writes down what comes back; tests/icarus judges it.
-// Everything of the device is unknown at power-up. What decides a transfer, and what is transferred, may never be unknown
-// once a reset was released: every cycle is looked at.
+// Plays recorded streams to the device in a four-state simulator and writes its outputs to a file; tests/icarus checks
+// them. All of the device is unknown at power-up. Once a reset was released, no signal that decides a transfer and no
+// transferred value may be unknown: every cycle is checked.
 //
 //   +beats=FILE    a beat a line, hexadecimal, w7 first (docs/stream.md)         +beat_count=N   its lines
-//   +willing=FILE  a bit a line: LENGTH cycles of each pattern, one after the other (docs/verify.md, "Patterns")
+//   +ready=FILE    a bit a line: LENGTH cycles of each pattern, one after the other (docs/verify.md, "Patterns")
 //   +pattern_count=N
 //   +plays=FILE    a play a line, decimal: RESET BEATS LINGER INPUT READY: reset for RESET cycles, then BEATS beats by the
 //                  patterns INPUT and READY; then LINGER cycles more, or, if LINGER is -1, until the device is at rest.
-//                  A play that lingers leaves a register read and a write without taking their answers
+//                  A play that lingers starts a register read and a write and does not take their answers
 //
-// Writes, a line each:  power NAMES=VALUES before the first reset; pixels PLAY LAST KEEP DATA; counter PLAY NUMBER HIGH LOW;
-// played PLAY CYCLES; and what is wrong: unknown PLAY CYCLE NAME, stray PLAY CYCLE NAME, hangs PLAY CYCLE.
+// Writes one line each:  power NAMES=VALUES before the first reset; pixels PLAY LAST KEEP DATA; counter PLAY NUMBER HIGH LOW;
+// played PLAY CYCLES; and errors: unknown PLAY CYCLE NAME, stray PLAY CYCLE NAME, hangs PLAY CYCLE.
 module icarus_bench;
   localparam int P = fastsplat_pkg::LANES;
   localparam int BEAT_BITS = fastsplat_pkg::BEAT_BITS;
@@ -44,7 +44,7 @@ module icarus_bench;
   fastsplat_dut u_dut (.*);
 
   logic [BEAT_BITS-1:0] beats[0:MOST_BEATS-1];
-  logic willing[0:PATTERNS*LENGTH-1];
+  logic ready_bits[0:PATTERNS*LENGTH-1];
   int play, cycle, idle, sent, to_send, input_pattern, ready_pattern, beat_count, pattern_count;
   logic offering;
 
@@ -81,10 +81,10 @@ module icarus_bench;
 
   // One cycle outside reset. All inputs of the device change at its beginning and are read before the edge (M-port-3).
   task automatic step;
-    offering = sent < to_send && (offering || willing[input_pattern*LENGTH+cycle%LENGTH]);
+    offering = sent < to_send && (offering || ready_bits[input_pattern*LENGTH+cycle%LENGTH]);
     s_tvalid_i = offering;
     s_tdata_i = beats[sent];  // w0 in the lowest bits (M-port-4)
-    m_tready_i = willing[ready_pattern*LENGTH+cycle%LENGTH];
+    m_tready_i = ready_bits[ready_pattern*LENGTH+cycle%LENGTH];
     #1 look;
     idle = idle + 1;
     if (offering && s_tready_o === 1'b1) begin
@@ -132,16 +132,16 @@ module icarus_bench;
   endtask
 
   int file, reset_cycles, linger;
-  string beats_file, willing_file, plays_file;
+  string beats_file, ready_file, plays_file;
   initial begin
     if (!$value$plusargs("beats=%s", beats_file) || !$value$plusargs("beat_count=%d", beat_count) ||
-        !$value$plusargs("willing=%s", willing_file) || !$value$plusargs("pattern_count=%d", pattern_count) ||
+        !$value$plusargs("ready=%s", ready_file) || !$value$plusargs("pattern_count=%d", pattern_count) ||
         !$value$plusargs("plays=%s", plays_file)) begin
       $display("stray 0 0 missing plusarg");
       $finish(0);
     end
     $readmemh(beats_file, beats, 0, beat_count - 1);
-    $readmemb(willing_file, willing, 0, pattern_count * LENGTH - 1);
+    $readmemb(ready_file, ready_bits, 0, pattern_count * LENGTH - 1);
     clk_i = 1'b0;
     rst_ni = 1'b0;
     {s_tvalid_i, m_tready_i, awvalid_i, wvalid_i, arvalid_i, offering} = '0;

@@ -118,7 +118,7 @@ Icarus::Icarus(const cmodel::Config& config, const std::string& name,
 
 Transcript Icarus::play(const Played& played) const {
   {
-    std::ofstream beats(folder_ / "beats"), ready(folder_ / "willing"), plays(folder_ / "plays");
+    std::ofstream beats(folder_ / "beats"), ready(folder_ / "ready"), plays(folder_ / "plays");
     beats << std::hex;
     for (const auto& beat : played.beats) {
       for (std::size_t word = beat.size(); word-- > 0;) {
@@ -135,7 +135,7 @@ Transcript Icarus::play(const Played& played) const {
   }
   shell("cd '" + folder_.string() + "' && timeout -s KILL " + std::to_string(kSeconds) +
             " vvp -n bench.vvp +beats=beats +beat_count=" + std::to_string(played.beats.size()) +
-            " +willing=willing +pattern_count=" + std::to_string(played.patterns.size()) + " +plays=plays",
+            " +ready=ready +pattern_count=" + std::to_string(played.patterns.size()) + " +plays=plays",
         folder_ / "transcript");
   Transcript out = read_transcript(folder_ / "transcript");
   for (const auto& [play, result] : out.plays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EXR headers built attribute by attribute, and those that OpenImageIO writes.
+// EXR headers built attribute by attribute, and headers written by OpenImageIO.
 #include "base/images/exr_check.hpp"
 
 #include <OpenImageIO/imageio.h>

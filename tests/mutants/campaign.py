@@ -117,7 +117,7 @@ def run(binary: str, config: str, numbers: list[int], jobs: int, until=None, jou
                         shown[0] = time.monotonic()
                         print(f"\rmutate: {len(results)} of {len(numbers)}, {time.monotonic() - began:.0f} s ", end="", file=sys.stderr, flush=True)
             server.close()
-        except Exception as error:  # told by the thread that asked
+        except Exception as error:  # reported by the requesting thread
             errors.append(error)
 
     threads = [threading.Thread(target=work) for _ in range(min(max(1, jobs), len(left)))]

@@ -10,9 +10,9 @@ import tempfile
 import generate
 
 _CORNER, _FAULTS, _PRODUCT = "tests/mutants/{}.toml", "configs/faults/{}.toml", "configs/{}.toml"
-# The smallest there can be, of all mutants; then, of what lives, one that rounds more and has more sets, one that composites every sample, the pixel
-# stage's lane by itself and devices of densities (which have the most that the first have not), those that cull by blocks and by pixels, three corners
-# more and the smallest product.
+# The smallest device, for all mutants. Then, for the survivors: one that rounds more and has more sets, one that composites every sample, the pixel
+# stage's lane alone and density devices (which differ most from the first ones), devices that cull by blocks and by pixels, three more corners, and the
+# smallest product.
 _PLACES = {"corners": _CORNER, "mustfail": _FAULTS, "westover": _FAULTS, "density_lane": "tests/mutants/densities.toml", "post": _FAULTS, "densities": _CORNER, "density_rows": _CORNER,
            "cull": _FAULTS, "cull_pixel": _CORNER, "cull_samples": _CORNER, "ties": _CORNER, "halves": _CORNER, "truncating": _CORNER, "tiny": _PRODUCT}
 _TOPS = {"density_lane": "fastsplat_classify_lane"}  # of the others the device as it ships

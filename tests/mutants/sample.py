@@ -82,7 +82,7 @@ print(f"[figure] of a journal of one whole line and half of one: {again[told_bef
 if again[told_before][1] != "before: the campaign was stopped" or again[planted["number"]][0] != "lives" or kept != again:
     failures.append(f"a campaign that was stopped does not go on: {again}, kept {kept}")
 
-# Nobody tries a mutant that the program has no code of, so those that it has must not be taken for such.
+# Mutants without code in the program are not run, so mutants with code must not be taken for them.
 built = campaign.built(f"{build}/verilated/mutants_sample/obj")
 missing = [number for number in chosen if number not in built]
 print(f"[figure] of {len(chosen)} mutants that are killed the program has {len(chosen) - len(missing)} (limit {len(chosen)}); constants in its sources {len(built)}")

@@ -26,7 +26,7 @@ namespace {
 
 /// Processor seconds of a mutant, beside so many times what the healthy device takes.
 constexpr double kSeconds = 2.0, kTimes = 5.0;
-/// Seconds for one of processor time, beside a minute: whoever takes none any more waits for ever.
+/// Seconds of wall time for one of processor time, plus a minute: a process that uses no more processor time hangs.
 constexpr double kPatience = 20.0;
 
 std::string one_line(std::string text) {

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 using SavedSettings = TemporaryFolder;
 
-/// Values just outside a setting's limits, as the text of a flag; NaN is no text.
+/// Values just outside a setting's limits, as the text of a flag; NaN cannot be written.
 template <class Kind>
 std::vector<double> outside(const Kind& kind) {
   if constexpr (std::is_same_v<Kind, Integer>) return {kind.low - 1.0, kind.high + 1.0};

@@ -47,7 +47,7 @@ bool is_free(int port) {
   return free;
 }
 
-/// The first of `count` consecutive free ports, below those that the kernel assigns by itself.
+/// The first of `count` consecutive free ports, below the kernel's own range.
 int free_ports(int count) {
   std::random_device chance;
   for (int tries = 0; tries < 1000; ++tries) {

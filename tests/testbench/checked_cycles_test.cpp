@@ -97,7 +97,7 @@ TEST(CheckedCycles, ASlowSinkIsNotAHang) {
   const auto result = verify(mixed(options.config), options);
   EXPECT_EQ(result.verdict, Verdict::Pass) << result.error;
   ASSERT_TRUE(result.check.cycles_rtl);
-  std::printf("[figure] cycles for a sink willing every 100th = %llu, without a transfer at most %llu\n",
+  std::printf("[figure] cycles for a sink ready every 100th = %llu, without a transfer at most %llu\n",
               static_cast<unsigned long long>(*result.check.cycles_rtl),
               static_cast<unsigned long long>(options.timeout + 100));
   EXPECT_GT(*result.check.cycles_rtl, 20 * options.timeout);

@@ -94,7 +94,7 @@ TEST(Top, AWriteOfSomeBytesResetsNothing) {
   std::printf("[figure] writes of some bytes = %d\n", writes);
 }
 
-// The source goes on where it was: what is left of its frame is no frame.
+// The source continues where it was: the rest of its frame is not a frame.
 // Its beats are dropped without an error, up to the next begin_frame (M-check-14, M-top-6).
 TEST(Top, TheNextFrameIsFoundBehindAHardReset) {
   std::uint64_t resets = 0, words = 0;

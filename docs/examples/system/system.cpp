@@ -51,7 +51,7 @@ void meet(Host& host, const Config& config) {
   }
 }
 
-/// A host that writes single bytes is told that it cannot.
+/// A host that writes single bytes gets an error response.
 void write_a_byte(Host& host) {
   const bool okay = host.write_bytes(kRegIrqMask.address, kIrqFrame | kIrqError, 0x1);
   const std::uint32_t mask = host.read(kRegIrqMask.address);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A browser for the tests: Debian's chromium, no network, one file; whatever it complains about fails the test.
+// A browser for the tests: Debian's chromium, no network, one file; any console message fails the test.
 //   FASTSPLAT   the program (build/bin/fastsplat)
 //   CHROMIUM    the browser (chromium or chromium-headless-shell of the PATH's usual places)
 //   TEMPLATE    another template than the program's: what `node build.mjs FILE` has just made

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels in a browser: their numbers are the results', their drawings add up, tables and plots do what they say.
+// The panels in a browser: their numbers are the results', their drawings add up, tables and plots work.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -30,7 +30,7 @@ before(async () => {
   fastsplat(["plan", "make", "spec.toml", "-o", "cases.json", "--quiet"]);
   fastsplat(["plan", "run", "cases.json", "--results", "cases", "--quiet"]);
   fastsplat(["plan", "merge", "cases.json", "--results", "cases", "-o", "merged.json", "--quiet"]);
-  // As the demo has them: another size for the steps, culling, classified by pixel; files by their whole paths.
+  // As in the demo: another size for the steps, culling, classified by pixel; files by their whole paths.
   result("quick", ["errors", ...scene.slice(0, 2), "--size", "32", "--quick"]);
   result("culling", ["cycles", ...scene.slice(0, 2), "--size", "48", "--cull-table"]);
   const post = [...scene.slice(0, 2), "--size", "40", "--classify", "post"];
@@ -93,7 +93,7 @@ test("title, header and every panel's heading say of which scan, configuration a
     "runs-5": main,
   };
   for (const [id, text] of Object.entries(wanted)) assert.equal(await of_panel(page, id), text);
-  // What is not the verdict's stands out, in the panel and in the header.
+  // Values that differ from the verdict's stand out, in the panel and in the header.
   assert.deepEqual(await page.$$eval("#errors-1 h2 strong", (all) => all.map((each) => each.textContent)), ["32 \u00d7 32 pixels"]);
   assert.match(await page.textContent("#top .others"), /32 \u00d7 32 pixels: Error by step/);
   figure("headings compared", Object.keys(wanted).length, "> 0");

@@ -16,7 +16,7 @@ before(async () => {
   result("compare", ["compare", "golden.exr", "cmodel.exr", "--min-psnr", "30"]);
   result("errors", ["errors", ...scene, "--config", "base", "--quick", "--blame", "blame.png"]);
   whole = report("whole", ["compare.json", "errors.json", "cmodel.json", "golden.json"]);
-  // Two pictures that are not alike at all: what a pane shows can be told from the other.
+  // Two pictures without similarity: the content of a pane identifies its picture.
   fastsplat(["render", "--volume", "binary-cube:16", "--size", "48", "--azimuth", "20", "-o", "left.exr", "--quiet"]);
   fastsplat(["render", ...scene, "-o", "right.exr", "--quiet"]);
   differ = result("differ", ["compare", "left.exr", "right.exr", "--max-lsb", "1"], [1]);
@@ -152,7 +152,7 @@ test("panes show their own picture, the slider parts them, zoom moves all", asyn
   await drawn(page);
   assert.equal(await under(page), `${x},${y}`);
 
-  // The wheel, after a click: every pane follows, and what is under the cursor stays there.
+  // The wheel, after a click: every pane follows, and the point under the cursor stays.
   await page.mouse.click(spot.x, spot.y);
   const before_ = Number(await page.getAttribute(left, "data-scale"));
   for (let i = 0; i < 4; ++i) await page.mouse.wheel(0, -100);
@@ -256,7 +256,7 @@ for (const [width, height] of [[1280, 800], [390, 844]]) {
       await page.waitForFunction(([m, n]) => document.querySelector(".panes").dataset.mode === m && document.querySelectorAll(".frame").length === n, [mode, count]);
       await drawn(page);
       for (let pane = 0; pane < count; ++pane) {
-        // As a reader scrolls: until the picture is in the middle of what is left; then the pointer goes over it.
+        // Scrolls until the picture is in the middle of the free area; then moves the pointer over it.
         const canvas = page.locator(".frame canvas").nth(pane);
         await canvas.evaluate((element) => {
           const box = element.getBoundingClientRect();
@@ -323,7 +323,7 @@ test("a map of a smaller picture says its size", async () => {
   const titles = await page.$$eval(".pane figcaption", (all) => all.map((each) => each.textContent));
   assert.ok(titles.includes("Blame (of 24 \u00d7 24 pixels)"), titles.join());
   await page.finish();
-  // It covers the frame, whatever its size: what is drawn at a place is the map's there.
+  // It covers a frame of any size: a place shows the map's value there.
   result("third", ["errors", "--volume", "shells:16", "--size", "32", "--config", "base", "--quick", "--blame", "third.png"]);
   const other = await open(report("thirds", ["compare.json", "third.json"]));
   const map = (await data_of(other)).pictures.find((picture) => picture.role === "blame");

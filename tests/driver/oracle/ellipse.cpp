@@ -77,7 +77,7 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
   for (std::int64_t row = first; row <= last; row += c.P) {
     // N-8-51: the columns.
     const double top = std::max(static_cast<double>(row) * one - y, -H);
-    const std::int64_t last_row = std::min(row + c.P - 1, last);  // of those that the footprint has
+    const std::int64_t last_row = std::min(row + c.P - 1, last);  // of the footprint's rows
     const double bottom = std::min(static_cast<double>(last_row) * one - y, H);
     const auto s = [&](double at) { return std::sqrt(std::max((r2 - at * at * (det / (4 * A))) / A, 0.0)); };
     const double on_left = std::clamp(-p, top, bottom), on_right = std::clamp(p, top, bottom);

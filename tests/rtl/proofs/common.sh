@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# common.sh: what the proof scripts share; sourced by them with `source` (the repository) and `work` (a folder) set, `emit` of those that need the
-# package of tiny, and `short` of those that take it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
+# common.sh: shared by the proof scripts, which source it with `source` (the repository) and `work` (a folder) set, `emit` if they need the
+# package of tiny, and `short` if they accept it. A proof is a module with its specification inside, SMT of it by Yosys, and z3 (yosys-smtbmc).
 [ -z "${short-}" ] || [ "$short" = short ] || { echo "$0: not '$short' but short" >&2; exit 2; }
 mkdir -p "$work"
 here="$source/tests/rtl/proofs"
 : >"$work/proofs.txt"
 [ -z "${emit-}" ] || "$emit" "$source/configs/tiny.toml" >"$work/tiny.sv"
 
-# FASTSPLAT_PROVE_ONLY=NAME: only the unit NAME; what belongs to another one (not NAME nor NAME_...) is passed over.
-# passed_over NAME: that is so of NAME.
+# FASTSPLAT_PROVE_ONLY=NAME: only the unit NAME; other units (neither NAME nor NAME_...) are skipped.
+# passed_over NAME: succeeds if NAME is skipped.
 passed_over() {
   case $1 in "${FASTSPLAT_PROVE_ONLY:-$1}" | "${FASTSPLAT_PROVE_ONLY:-$1}"_*) return 1 ;; esac
 }

@@ -13,7 +13,7 @@ always @* if (!f_started) assume (!rst_ni);
 logic f_beat, f_payload, f_take, f_splat, f_table, f_begin, f_idle_pixel;  // of decode and pixel out
 logic f_kind_splat, f_kind_sheet, f_kind_rest;  // what decode read off its record on the way
 logic [7:0] f_opcode;
-logic [7:0] f_check_opcode;  // of the beat in check that is judged, and the place where it may come
+logic [7:0] f_check_opcode;  // of the beat in check's second stage, and its legal place
 logic [2:0] f_check_wants;
 logic f_pixel_running, f_pixel_r1, f_pixel_r2;  // of pixel out
 logic f_next_here, f_here, f_soft;  // of check: beats, a soft reset
@@ -57,7 +57,7 @@ always @(posedge clk_i) begin
 end
 
 // Something moves: a beat that is not swallowed, a window, a table word, a block, a sheet given back, pixels, the wipe; if there is
-// something to do, the sink is willing, and no soft reset is asked for just now.
+// something to do, the sink is ready, and no soft reset is being requested.
 localparam int F_SLICES = fastsplat_pkg::SLICES;
 integer f_slice_q;  // of the block that is walked
 logic f_moves, f_fair;
@@ -145,7 +145,7 @@ always @(posedge clk_i) begin
             (!f_beat && f_busy == '0 && f_valid == '0 && f_last == '0 && f_full == '0 && f_place_q == '0 && f_idle_pixel && compositor_idle));
     // stream_decode_proof.svh.
     assert (!free || (f_busy[free_buffer] && !f_open[free_buffer]));
-    assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are willing something moves
+    assert (f_still_q <= 5'(F_LONGEST));  // No deadlock: while source and sink are ready something moves
 
     // For induction. What was refused is not in check any more.
     assert (!(error_o && (f_here || f_next_here)));

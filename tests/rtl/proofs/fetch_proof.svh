@@ -8,7 +8,7 @@ always @* if (!f_started) assume (!rst_ni);
 
 // The memory answers its requests: as many beats, as many bursts; the last beat of all ends the last burst.
 logic [DB-1:0] f_due_q;   // beats of bursts that were requested, and have not come
-logic [DB-1:0] f_owed;    // of them, those that were asked for; bursts likewise
+logic [DB-1:0] f_owed;    // of them, the requested ones; bursts likewise
 logic [OB-1:0] f_asked;
 assign f_owed = f_due_q - (m_axi_arvalid ? DB'(m_axi_arlen) + DB'(1) : DB'(0));
 assign f_asked = outstanding_q - OB'(m_axi_arvalid);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop of every sample (docs/microarchitecture.md, "Every sample" and "Hazard"), written again from the page and put inside
 // compositor by prove_samples.sh: in tiles of every sample each pixel has the value that it has if samples are composited one after
-// another. A sample gives its pixel a new state, which may be any; what it is made of is the state that the sample before it made, however
-// many cycles lie between the two, or the picture's. One pixel is looked at: any. Reading the word that is being written gives anything.
+// another. A sample gives its pixel a new, arbitrary state. It is composited over the state of the sample before it, however many
+// cycles lie between the two, or over the picture's. The proof follows one arbitrary pixel. Reading the word that is being written
+// returns an arbitrary value.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);

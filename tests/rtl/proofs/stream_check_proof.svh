@@ -258,7 +258,7 @@ always @(posedge clk_i) begin
   end
 end
 
-// What first stage counts: as if the beat that is judged had passed, and its own as well, if it is not new.
+// Counts of the first stage: as if the beat in the second stage had passed, and its own too, if it is not new.
 logic f_tile_to_come, f_sheet_to_come, f_next_counted;
 logic [31:0] f_tile_to, f_sheet_to, f_sheets_to, f_splats_to, f_tags_to;
 logic [31:0] f_tile_on, f_sheet_on, f_sheets_on, f_splats_on, f_tags_on;

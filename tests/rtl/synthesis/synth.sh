@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# synth.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: what Yosys, and for iCE40 nextpnr, make of the device. Leaves in WORK_DIR what
-# fastsplat_evidence reads:
+# synth.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: synthesis of the device by Yosys and, for iCE40, placement by nextpnr.
+# Writes to WORK_DIR the files that fastsplat_evidence reads:
 #   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept
 #   FAMILY-CONFIG.levels  longest path of each module between registers, memories and its submodules (`ltp`)
 #   FAMILY-CONFIG.tools   versions, one a line, the configuration's hash, and the processor seconds of synthesis
 #   FAMILY-CONFIG.report, .place   placed (FAMILY hx8k only): nextpnr's report and its log
-#   FAMILY-CONFIG.bin     the bitstream of what is a device as it is, where icepack is at hand
-# FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed: of tiny tiny_hx8k.toml in ice40_wrap, of others the
-# configuration itself, whole, in ice40_whole. CONFIG plain, ellipses, samples, densities, cull_block, cull_pixel: configs/faults/westover.toml with none of these keys, or
-# with that one alone, to tell what it costs. SEEDS: those of the placer (1 to 8).
+#   FAMILY-CONFIG.bin     the bitstream of a whole device, if icepack is installed
+# FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed. tiny stands for tiny_hx8k.toml in ice40_wrap;
+# other configurations are placed whole in ice40_whole. CONFIG plain, ellipses, samples, densities, cull_block, cull_pixel:
+# configs/faults/westover.toml without these keys, or with that key alone, to show its cost. SEEDS: seeds of the placer (1 to 8).
 set -eu
 family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
@@ -48,8 +48,8 @@ else
   "$emit" "$from" >"$base.pkg.sv"
 fi
 
-# Cells are mapped and placed by their names, which have file names and running numbers in them: so that figures move with
-# the device alone, its modules are read from one folder, without those around it, and deferred (only those that it has).
+# Cells are mapped and placed by their names, which contain file names and running numbers. Figures must change with the
+# device alone, so its modules are read from one folder, without other modules, and deferred (only the ones in use).
 rm -rf "$base.rtl"
 mkdir "$base.rtl"
 for file in "$source"/rtl/*.sv "$source"/rtl/*/*.sv; do
@@ -72,8 +72,8 @@ yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $
 } >"$base.tools"
 
 if [ -n "$place" ]; then
-  # Router and placer are seeded: the same netlist and seed give the same placement. Where most cells are used the seed decides, so several are
-  # placed, all are told, and the fastest is kept.
+  # Router and placer are seeded: the same netlist and seed give the same placement. In a nearly full device the seed decides, so several
+  # are placed, all are reported, and the fastest is kept.
   best=0
   for seed in ${SEEDS:-1 2 3 4 5 6 7 8}; do
     nextpnr-ice40 --hx8k --package ct256 --json "$base.json" --seed "$seed" --freq 80 --pcf-allow-unconstrained --timing-allow-fail \

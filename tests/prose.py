@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""prose.py SOURCE PROGRAM [--record]: pages and header comments read plainly, their links resolve, their commands exist.
+"""prose.py SOURCE PROGRAM [--record]: pages and comments read plainly, links resolve, commands exist.
 
-Counts per folder: sentences of more than 35 words, table cells of more than 25, wordings that the style bans, dead links, and
-commands that the programs' own --help does not list. tests/prose.txt holds the accepted counts. A count above its ceiling is
-an error; so is one below it, until the ceiling is lowered: --record does that, and never raises one.
+Counts per folder, in pages and header comments: sentences of more than 35 words, table cells of more than 25, wordings that
+the style bans, dead links, and commands that the programs' own --help does not list; bodies: banned wordings in comments of
+all other sources. tests/prose.txt holds the accepted counts. A count above its ceiling is an error; so is one below it, until
+the ceiling is lowered: --record does that, and never raises one.
 Code, quoted text and generated JSON keys are not prose."""
 import collections
 import os
@@ -11,9 +12,11 @@ import re
 import subprocess
 import sys
 
-KINDS = ["sentences", "cells", "wordings", "links", "commands"]
+KINDS = ["sentences", "cells", "wordings", "links", "commands", "bodies"]
 SENTENCE, CELL = 35, 25  # words at most
 WORDINGS = re.compile(r"\bis no (?!longer\b)|\bare none\b| told\b|\bthose that\b", re.IGNORECASE)
+BODIES = re.compile(r"(?<!there )\bis no(?:ne\b| (?!longer\b|later\b|less\b|more\b))|(?<!there )\bare none\b|\btells?\b| told\b|\bthose that\b|\bwhoever\b", re.IGNORECASE)
+COMMENTS = {".cpp": "//", ".sv": "//", ".svh": "//", ".def": "//", ".c": "//", ".h": "//", ".ts": "//", ".mjs": "//", ".sh": "#", ".py": "#"}
 COMMAND = re.compile(r"(?m)(?:^|[|;&($])\s*(?:\w+=\S+ +)*((?:\./run|(?:[\w./]*/)?fastsplat|tools/[a-z-]+)(?= |$)[^|;&>\n#]*)")
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(<?([^)\s>]+)>?\)")
 PAGE = re.compile(r"\bdocs/[\w/-]+\.md\b")
@@ -210,6 +213,24 @@ def header_defects(text, pages, source):
                     yield "links", number, f"{page}: no such file"
 
 
+def body_defects(text, mark):
+    """Comments of sources that are not headers, on their own lines or behind code."""
+    block = []
+    for number, line in enumerate(text.splitlines() + [""], 1):
+        own = re.match(rf"\s*{mark}[/#!]?<? ?(.*)", line)
+        behind = None if own else re.search(rf"\s{mark}<? (.*)", line)
+        if not own and block:
+            joined = " ".join(" ".join(line for line, _ in block).split())
+            for match in BODIES.finditer(plain(joined)):
+                yield "bodies", block[0][1], f'"{match[0].strip()}": {plain(joined)[max(0, match.start() - 30):match.end() + 30]}'
+            block = []
+        if own:
+            block.append((own[1], number))
+        elif behind and line[:behind.start()].count('"') % 2 == 0:
+            for match in BODIES.finditer(plain(behind[1])):
+                yield "bodies", number, f'"{match[0].strip()}": {behind[1][:70]}'
+
+
 def files_of(source):
     for folder, folders, files in os.walk(source):
         here = os.path.relpath(folder, source)
@@ -217,7 +238,7 @@ def files_of(source):
         for file in sorted(files):
             path = os.path.normpath(os.path.join(here, file))
             # The prefaces of generated pages are read where they stand in those pages.
-            if path.endswith(".hpp") or path.endswith(".md") and not path.startswith("tools/pages/"):
+            if path.endswith((".hpp", *COMMENTS)) or path.endswith(".md") and not path.startswith("tools/pages/"):
                 yield path
 
 
@@ -236,10 +257,15 @@ def count(source, program):
     pages = {path: Page(text) for path, text in texts.items() if path.endswith(".md")}
     programs, found = Help(source, program), collections.defaultdict(list)
     for path, text in texts.items():
-        defects = page_defects(path, pages, programs, source) if path in pages else header_defects(text, pages, source)
+        if path in pages:
+            defects = page_defects(path, pages, programs, source)
+        elif path.endswith(".hpp"):
+            defects = header_defects(text, pages, source)
+        else:
+            defects = body_defects(text, COMMENTS[os.path.splitext(path)[1]])
         for kind, line, what in defects:
             found[folder_of(path), kind].append(f"{path}:{line}: {kind}: {what}")
-    return found, sorted({folder_of(path) for path in texts}), len(pages), len(texts) - len(pages)
+    return found, sorted({folder_of(path) for path in texts}), len(pages), sum(path.endswith(".hpp") for path in texts), sum(path.endswith((*COMMENTS,)) for path in texts)
 
 
 def ceilings(path):
@@ -259,7 +285,7 @@ def record(path, found, folders, accepted):
 
 def main(source, program, *flags):
     kept = os.path.join(source, "tests/prose.txt")
-    found, folders, pages, headers = count(source, program)
+    found, folders, pages, headers, bodies = count(source, program)
     if "--list" in flags:
         print("\n".join(line for lines in found.values() for line in lines))
     if "--record" in flags:
@@ -276,8 +302,8 @@ def main(source, program, *flags):
                 print(f"{folder}: {kind}: {now}, ceiling {limit}. Lower it: python3 tests/prose.py . build/bin/fastsplat --record")
     for kind in KINDS:
         print(f"[figure] {kind} = {sum(len(found[folder, kind]) for folder in folders)} (limit {sum(a[kind] for a in accepted.values())})")
-    print(f"[figure] pages read = {pages}, headers = {headers} (limit > 0)")
-    return 1 if wrong or not pages or not headers else 0
+    print(f"[figure] pages read = {pages}, headers = {headers}, other sources = {bodies} (limit > 0)")
+    return 1 if wrong or not pages or not headers or not bodies else 0
 
 
 if __name__ == "__main__":

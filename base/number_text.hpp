@@ -17,7 +17,7 @@ inline std::optional<double> double_from(std::string_view text) {
   auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::invalid_argument || stop != text.data() + text.size()) return std::nullopt;
   if (error == std::errc{}) return value;
-  // from_chars does not say which of the two it is: a wider type knows, and beyond that the exponent's sign.
+  // from_chars does not distinguish the two: a wider type does, and beyond that the exponent's sign.
   long double wide = 0.0L;
   error = std::from_chars(text.data(), text.data() + text.size(), wide).ec;
   const bool small = error == std::errc{} ? std::abs(wide) < 1.0L : text.find('-', 1) != text.npos;

@@ -15,7 +15,7 @@
 namespace fastsplat::cli {
 namespace {
 
-// The fix for a counter of lost bits; the counter's own text says what it counts.
+// The fix for a counter of lost bits; the counter's own text names it.
 std::string fix_for(std::string_view counter) {
   if (counter == "snap_saturated")
     return "the picture exceeds the range of the configuration's positions: reduce --size or --zoom";

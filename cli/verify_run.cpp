@@ -250,7 +250,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
     compiled->emit(sink, progress);
   };
   Checked out = verify_one(source, options, "scene");
-  // Without splats, the pixels are equal whatever is wrong with the device.
+  // Without splats, the pixels are equal even if the device is wrong.
   if (out.result.verdict == testbench::Verdict::Pass && out.result.counters.splats == 0)
     out.result.verdict = testbench::Verdict::NothingCompared;
   return out;

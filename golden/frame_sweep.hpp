@@ -15,7 +15,7 @@
 
 namespace fastsplat::golden {
 
-/// What a splat adds to a sheet. The sweep's default is share * value * footprint.
+/// A splat's addition to a sheet. The sweep's default is share * value * footprint.
 class Deposit {
  public:
   virtual ~Deposit() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settled pixels of a band of rows: their stored value stays the same whatever lies behind. A splat that reaches only
+// Settled pixels of a band of rows: splats behind them do not change their stored value. A splat that reaches only
 // settled pixels need not be drawn.
 #pragma once
 

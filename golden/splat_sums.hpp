@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one splat adds to each of its sheets: values and places, gathered for add_footprint.
+// One splat's additions to each of its sheets: values and places, gathered for add_footprint.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of a report: a file's values as words, whatever its format, and their meaning.
+// A picture of a report: the values of a file of any format as words, and their meaning.
 #pragma once
 
 #include <cstdint>

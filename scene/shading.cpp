@@ -12,7 +12,7 @@ namespace {
 constexpr double kLightLeft = 0.35;  // in units of the distance towards the eye
 constexpr double kLightUp = 0.50;
 
-/// Towards the light, in doubles. The half vector is made of it as it is: GCC 12 takes a vector of doubles that was
+/// Towards the light, in doubles. The half vector uses it unrounded: GCC 12 takes a vector of doubles that was
 /// rounded to floats and widened again for the one before.
 glm::dvec3 light_of(const Camera& camera) {
   return glm::normalize(-camera.direction() - kLightLeft * camera.right() - kLightUp * camera.down());

@@ -261,7 +261,7 @@ void BoundBand::add_pixel(const stages::StagedSplat& splat, const Touch& touch, 
       const Effect one = here != nullptr ? effect(*here, c) : Effect{};
       const double t = here != nullptr ? here->transmittance : 0.0;
       const Effect now{t * one.colour, t * one.tau};
-      // What a boundary takes from one sheet it gives to the other.
+      // A boundary moves a share from one sheet to the other.
       cuts += s.cut[m] * std::abs(before.of(splat.value, c) - now.of(splat.value, c));
       words += s.word[m] * (std::abs(before.colour - now.colour) + std::abs(before.tau - now.tau));
       before = now;
@@ -370,7 +370,7 @@ void BoundBand::finish_pixel(int sheet, SheetCell& here, std::size_t at, int x, 
       second = contrast * beyond_linear(tau, here.dims, tau_error) + spread * std::min(0.5 * tau_error, 1.0);
     }
     const double sheet_cut = spread - spread_known + contrast * cut;
-    const double behind = alpha ? 1.0 - here.behind[3] : here.behind[c];  // what a rounding of opacity uncovers
+    const double behind = alpha ? 1.0 - here.behind[3] : here.behind[c];  // light uncovered by a rounding of opacity
     const double table = r_.factor * (tau * contrast + spread + contrast * tau_error);
     const double slab = (alpha ? 0.0 : std::min(r_.slab, sum_most)) + behind * std::min(r_.slab, most);
     const double composite =

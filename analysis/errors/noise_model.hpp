@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assumes that the noises of single keys add. Selects what is worth simulating, never what is good enough.
+// Assumes that the noises of single keys add. Selects candidates for simulation; never decides that one is good enough.
 #pragma once
 
 #include <map>

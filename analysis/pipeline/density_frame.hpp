@@ -19,7 +19,7 @@ class DensityBand {
  public:
   static constexpr int kHalo = 1;  ///< halo around a band whose densities are read, pixels
 
-  /// What all bands share; DensityBand keeps the references.
+  /// Data shared by all bands; DensityBand keeps the references.
   struct Frame {
     const scene::Scene& scene;
     const cmodel::Config& config;

@@ -37,7 +37,7 @@ class DensitySteps {
   DensitySteps(const DensitySteps&) = delete;  // golden's stage keeps a reference to a member
   DensitySteps& operator=(const DensitySteps&) = delete;
 
-  /// R, G, B (premultiplied) and optical depth: what a sheet of colours would hold there.
+  /// R, G, B (premultiplied) and optical depth: the values of a colour sheet there.
   golden::Sums operator()(const DensityPixel& pixel, const Mixture& mixture) const;
 
   /// Golden itself, float by float: for frames with all steps real and sums in golden's units. Writes pixels begin,

@@ -12,7 +12,7 @@
 namespace fastsplat::stages {
 namespace {
 
-/// At a transmittance below this, what lies behind adds less to a pixel than a double can hold.
+/// At a transmittance below this, splats behind add less to a pixel than a double can hold.
 constexpr double kSpent = 1e-20;
 
 }  // namespace

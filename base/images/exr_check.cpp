@@ -45,7 +45,7 @@ class Reader {
   Bytes rest_;
 };
 
-/// Bytes that OpenEXR reads for a type, whatever the declared length; 0 if it follows the length.
+/// Bytes that OpenEXR reads for a type, regardless of the declared length; 0 if it follows the length.
 std::size_t fixed_size(std::string_view type) {
   struct Type {
     std::string_view name;

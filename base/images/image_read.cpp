@@ -29,7 +29,7 @@ const char* format_of(std::span<const unsigned char> bytes) {
     const char* format;
     std::array<unsigned char, 4> bytes;
   };
-  static constexpr std::array<unsigned char, 3> kJpeg{0xff, 0xd8, 0xff};  // three bytes, whatever follows
+  static constexpr std::array<unsigned char, 3> kJpeg{0xff, 0xd8, 0xff};  // three bytes; the fourth may be any
   if (bytes.size() >= 3 && std::equal(kJpeg.begin(), kJpeg.end(), bytes.begin())) return "jpeg";
   static constexpr std::array<Magic, 6> kMagic{{{"openexr", {0x76, 0x2f, 0x31, 0x01}},
                                                 {"png", {0x89, 'P', 'N', 'G'}},

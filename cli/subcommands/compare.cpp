@@ -24,7 +24,7 @@ struct CompareArguments {
   int clusters = 5;
   std::optional<double> min_psnr, max_lsb, max_mean_lsb, max_rmse_lsb, max_bias_lsb, max_p99_lsb, min_ssim;
   bool allow_nonfinite = false;
-  bool srgb = false;  ///< both are display pictures, whatever wrote them
+  bool srgb = false;  ///< both are display pictures of any program
 };
 
 using Json = nlohmann::ordered_json;

@@ -48,7 +48,7 @@ volume::VoxelType type_from(const std::string& name) {
   return types.at(name);  // declare() accepts no other names
 }
 
-/// What was written.
+/// The written file.
 struct VolumeConvertResult {
   volume::Volume volume;
   std::string out;

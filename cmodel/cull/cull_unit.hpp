@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unit "cull": tests what the sheets up to the last but one hide of a sheet (docs/numerics.md, section 6.1).
+// Unit "cull": tests which splats of a sheet the earlier ones, up to the last but one,
+// hide (docs/numerics.md, section 6.1).
 #pragma once
 
 #include <array>

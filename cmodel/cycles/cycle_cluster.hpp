@@ -25,7 +25,7 @@ struct ClusterOptions {
 /// it is sent: at most one tile more than there are devices.
 class CycleCluster final : public Device {
  public:
-  /// What `options` points to must outlive it.
+  /// The objects of `options` must outlive it.
   CycleCluster(const Config& config, StreamScope scope, const ClusterOptions& options);
 
   void consume(std::span<const Beat> beats) override {

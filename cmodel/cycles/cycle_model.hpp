@@ -97,7 +97,7 @@ std::optional<ErrorParts> cycle_violation(const Config& config);
 
 class CycleModel final : public Device {
  public:
-  /// What `options` points to must outlive the model.
+  /// The objects of `options` must outlive the model.
   CycleModel(const Config& config, StreamScope scope, const CycleOptions& options = {});
 
   void consume(std::span<const Beat> beats) override {

@@ -15,7 +15,7 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// What a band contributes to its tile's report.
+/// A band's part of its tile's report.
 struct BandReport {
   std::uint64_t splat_records = 0, saturated_records = 0;
   std::vector<std::uint8_t> sheets;  ///< for each sheet of the frame: 1 with a record, else 0

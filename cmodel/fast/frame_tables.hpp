@@ -17,7 +17,7 @@
 
 namespace fastsplat::cmodel::fast {
 
-/// What the fast unit has to draw besides circles in sheets.
+/// Kinds of work of the fast unit besides circles in sheets.
 struct FrameNeeds {
   bool ellipses = false, samples = false;
   bool tints = false;  ///< sheets of colours are tinted by a solid pattern

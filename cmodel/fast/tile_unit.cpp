@@ -373,7 +373,7 @@ void TileUnit<T>::composite(int bx, int by) {
   }
   sheet_.clear(x0, y0, x1, y1);
   if (all_frozen) {
-    // From here on the block cannot change, and colours below tau stay in range, whatever their sums.
+    // From here on the block cannot change, and colours below tau stay in range for any sums.
     frozen_[static_cast<std::size_t>(by)] |= bit;
     any_frozen_ = any_frozen_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
   }
@@ -440,7 +440,7 @@ void TileUnit<T>::count_frozen(int x0, int y0, int x1, int y1) {
 
 template <class T>
 bool TileUnit<T>::hidden_slab_fits(const SheetWord& seen, std::uint64_t hidden) const {
-  // The slab factor is at most 1.0: what is at most 1.0 before it is so after it.
+  // The slab factor is at most 1.0: values of at most 1.0 stay so.
   const std::uint32_t colour = std::max({seen[0], seen[1], seen[2]});
   const std::uint64_t one = std::uint64_t{1} << tables_.config.sheet_frac_bits;
   if (std::max(colour, seen[3]) + hidden <= one) return true;

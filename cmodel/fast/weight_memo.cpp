@@ -10,7 +10,7 @@ namespace {
 
 int rounded_up(int value, int step) { return (value + step - 1) / step * step; }
 
-/// The RLUT word of a set's column along one axis, whatever its windows.
+/// The RLUT word of a set's column along one axis, in any window.
 std::uint32_t word(const Rlut& rlut, std::uint32_t set, std::uint32_t phase, int column, int lanes) {
   const int window = column / lanes * lanes;
   return rlut.read(set, phase, static_cast<std::uint32_t>(window))[static_cast<std::size_t>(column - window)];
@@ -80,7 +80,7 @@ void WeightMemo::fill(const Config& config, RlutUnit& unit, std::uint32_t set, i
   shape.padded = static_cast<int>(rlut.extent(set));
   shape.windows = static_cast<std::uint32_t>((shape.padded / lanes_) * (shape.padded / lanes_));
   const auto phases = static_cast<std::uint32_t>(phases_);
-  // A column that is outside the rim at every phase, whatever the row, has no weight.
+  // A column that is outside the rim at every phase has no weight in any row.
   std::vector<std::uint32_t> nearest(static_cast<std::size_t>(shape.padded), ~std::uint32_t{0});
   for (int i = 0; i < shape.padded; ++i) {
     for (std::uint32_t m = 0; m < phases; ++m)

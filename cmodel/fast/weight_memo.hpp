@@ -15,7 +15,7 @@ namespace fastsplat::cmodel::fast {
 /// Footprints of one radius set.
 struct Shape {
   std::uint32_t rho = 0;       ///< support radius, 1/K pixel
-  int padded = 0;              ///< Ea, pixels: what the windows cover
+  int padded = 0;              ///< Ea, pixels: the windows' coverage
   int extent = 0;              ///< pixels from the origin with a weight in any phase; <= Ea
   int pitch = 0;               ///< words from row to row: pitch_of(extent)
   std::uint32_t windows = 0;   ///< windows of one splat

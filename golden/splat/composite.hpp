@@ -30,7 +30,7 @@ inline Layer make_layer(const Sums& sums, scene::SlabOpacity opacity) {
   return {sums[0] * dimming, sums[1] * dimming, sums[2] * dimming, alpha};
 }
 
-/// A pixel composited front to back: its colour so far, and the transmittance to whatever lies behind.
+/// A pixel composited front to back: its colour so far, and the transmittance to splats behind.
 struct FrontToBack {
   double red = 0.0, green = 0.0, blue = 0.0, transmittance = 1.0;
 

@@ -123,7 +123,7 @@ TextHeader split_header(const fs::path& path) {
   return header;
 }
 
-/// The field by the first of its names that exists, else nullptr. All that exist must say the same.
+/// The field by the first of its names that exists, else nullptr. All existing ones must agree.
 const Field* agreed(const TextHeader& header, std::initializer_list<const char*> names) {
   const Field* const first = header.find(names);
   for (const char* name : names) {
@@ -200,7 +200,7 @@ Component component_of(const TextHeader& header) {
   return found->second;
 }
 
-/// ITK knows these two fields but does not apply them. Files that need them are refused.
+/// ITK parses these two fields but does not apply them. Files that need them are refused.
 void refuse_scaling(const TextHeader& header) {
   for (const auto& [name, neutral] :
        {std::pair{"ElementToIntensityFunctionSlope", 1.0}, {"ElementToIntensityFunctionOffset", 0.0}}) {

@@ -191,7 +191,7 @@ double mm_of_units(int units, std::vector<std::string>& remarks) {
 
 /// Whether the qform's rotation and offset are numbers, and the rotation is one; libnifti2 makes others 0.
 bool usable_qform(const RawHeader& header) {
-  constexpr double kMostSquare = 1.001;  // the rotation's scalar part is what is left to 1
+  constexpr double kMostSquare = 1.001;  // the rotation's scalar part completes the norm to 1
   double square = 0.0;
   bool finite = true;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -284,7 +284,7 @@ VoxelSource read_nifti_header(const fs::path& path) {
     source.extents[a] = static_cast<std::uint64_t>(checked.dim[a + 1]);
     source.spacing[a] = usable_length(checked.pixdim[a]) * mm;
   }
-  // From the header itself: libnifti2 makes what is not finite 0.
+  // From the header itself: libnifti2 sets non-finite values to 0.
   const double slope = number_at(header, offsetof(nifti_1_header, scl_slope), offsetof(nifti_2_header, scl_slope));
   if (slope != 0.0 && !std::isnan(slope)) {  // either means unscaled
     source.slope = slope;

@@ -38,7 +38,7 @@ void save_volume(const Volume& volume, const std::filesystem::path& path, VoxelT
 /// The data file that save_volume writes beside a detached header, .nhdr or .mhd; empty for other endings.
 std::filesystem::path data_file_of(const std::filesystem::path& header);
 
-/// Names that `load_volume` knows without a path.
+/// Names that `load_volume` accepts without a path.
 std::vector<std::string> known_volume_names();
 
 const char* to_string(VoxelType type);

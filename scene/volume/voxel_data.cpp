@@ -117,7 +117,7 @@ std::uint64_t most_unpacked(const VoxelSource& source, std::uint64_t on_disk) {
   return on_disk;
 }
 
-/// What reading found besides valid numbers.
+/// Values found besides valid numbers.
 struct Findings {
   Trouble infinite;
   std::uint64_t replaced = 0;  ///< voxels that became `nan_as`

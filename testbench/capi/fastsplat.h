@@ -157,7 +157,7 @@ FASTSPLAT_API fastsplat_status fastsplat_pattern_destroy(fastsplat_pattern* patt
 /// *ready: 1 if the side is ready in cycle `cycle` after reset, else 0.
 FASTSPLAT_API fastsplat_status fastsplat_pattern_at(const fastsplat_pattern* pattern, uint64_t cycle, int32_t* ready);
 
-// ---- the checker: compares what a device took and what its ports show with the model
+// ---- the checker: compares the beats that a device took and its port values with the model
 
 typedef struct fastsplat_checker fastsplat_checker;
 

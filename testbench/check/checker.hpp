@@ -79,7 +79,7 @@ class Checker final : public RawTapSink {
 
   /// Throws UserError (Input) if the stream ended where it may not.
   void end_of_stream() { model_.finish(); }
-  /// Ends the check: what the device has not shown is missing. Compares its counters and, after start(), its cycles.
+  /// Ends the check: expected taps that did not come are missing. Compares its counters and, after start(), its cycles.
   CheckReport finish(const cmodel::Counters& counters, const cmodel::StallCounters& cycles);
   /// The same for a device whose counters are not read: neither they nor cycles are compared.
   CheckReport finish();

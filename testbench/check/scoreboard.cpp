@@ -147,7 +147,7 @@ void Scoreboard::Side::on_tap(const cmodel::TapRecord& record) {
 }
 
 void TapQueue::make_room(std::size_t words) {
-  // What is moved is less than what was popped since the last move: constant time per record.
+  // Fewer records are moved than were popped since the last move: constant time per record.
   const std::size_t held = tail_ - head_;
   std::vector<std::uint32_t> longer;
   if (head_ < data_.size() / 2 || data_.size() - held < words) {

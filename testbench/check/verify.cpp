@@ -15,7 +15,7 @@ std::unique_ptr<RtlDevice> make_device(const VerifyOptions& options, cmodel::Pix
   return options.device ? options.device(pixels, rtl) : make_rtl_device(options.config, pixels, rtl);
 }
 
-/// Feeds the first beats, then resets in the middle of whatever they started.
+/// Feeds the first beats, then resets in the middle of the work that they started.
 void interrupt(CheckedDevice& checked, const BeatSource& source, std::uint64_t after, int wait, int cycles,
                CoverageCollector* coverage) {
   checked.unchecked([&](RtlDevice& device) {

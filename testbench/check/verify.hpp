@@ -55,7 +55,7 @@ struct VerifyResult {
   CheckReport check;
   cmodel::Counters counters;                 ///< the RTL's; if the run was stopped, the model's so far
   std::uint64_t last_cycle = 0;              ///< after reset, at the end of the run
-  std::string error;                         ///< of Verdict::Simulation: what the device did, where and when
+  std::string error;                         ///< of Verdict::Simulation: the device's behaviour, place and cycle
   std::string fault;                         ///< the same without where and when
   std::shared_ptr<const Coverage> coverage;  ///< of a run that passed, if asked for
 };

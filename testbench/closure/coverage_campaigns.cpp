@@ -57,7 +57,7 @@ class Runner {
                                .progress = {}};
       campaign.verify.seed = 1000 * (static_cast<std::uint64_t>(fill) + 1);
       campaign.verify.fill = fill;
-      // Some resets come later, while what the last beats caused goes on.
+      // Some resets come later, while the work of the last beats continues.
       campaign.verify.reset_wait = fill == ResetFill::Zero ? 0 : fill == ResetFill::One ? 12 : 24;
       const auto result = add(run_campaign(campaign), std::string("resets, memories filled with ") + to_string(fill));
       for (const auto& [which, part] : result.coverage) coverage.merge(part);

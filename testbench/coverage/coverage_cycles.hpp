@@ -60,7 +60,7 @@ class CycleCoverage final : public cmodel::CycleSink, public cmodel::TapSink {
   Id stall_ = 0;
 };
 
-/// What the device was doing in the cycle in which a warm reset came.
+/// The device's activity in the cycle in which a warm reset came.
 class ResetCoverage final : public cmodel::CycleSink {
  public:
   ResetCoverage(const cmodel::Config& config, Coverage& coverage);

@@ -34,7 +34,7 @@ class SplatCoverage {
   cmodel::SheetWord& sums(int x, int y) {
     return sums_[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
   }
-  /// Every sample: what the window of the last Footprint tap composites at pixel `lane`; nothing if the pixel has no
+  /// Every sample: the last Footprint tap's sample at pixel `lane` of its window; nothing if the pixel has no
   /// weight.
   std::optional<cmodel::SheetWord> sample(std::size_t lane);
 

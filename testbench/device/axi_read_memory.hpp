@@ -23,7 +23,7 @@ struct AxiTimings {
   std::uint64_t seed = 1;
 };
 
-/// What a master shows in a cycle on the address channel.
+/// A master's address channel in a cycle.
 struct AxiRequest {
   bool valid = false;
   std::uint64_t address = 0;
@@ -31,7 +31,7 @@ struct AxiRequest {
   bool operator==(const AxiRequest&) const = default;
 };
 
-/// What the memory shows in a cycle on the data channel.
+/// The memory's data channel in a cycle.
 struct AxiAnswer {
   bool valid = false, last = false;
   unsigned response = 0;  ///< 0 OKAY, 2 SLVERR

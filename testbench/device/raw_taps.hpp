@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the RTL's ports show, unchanged: words by bank, places in the port's width. Plain data, so that any simulator
+// The RTL's port values, unchanged: words by bank, places in the port's width. Plain data, so that any simulator
 // can provide it.
 #pragma once
 
@@ -45,7 +45,7 @@ class RawTapSink {
  public:
   virtual ~RawTapSink() = default;
   virtual void on_raw(const RawTap& tap) = 0;
-  /// A beat of the stream was taken; what it causes shows in later cycles.
+  /// A beat of the stream was taken; its effects come in later cycles.
   virtual void accept(const cmodel::Beat& beat) = 0;
 };
 

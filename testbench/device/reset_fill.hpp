@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every register and memory of a simulated device holds before reset.
+// Initial contents of every register and memory of a simulated device, before reset.
 #pragma once
 
 #include <string>

@@ -72,7 +72,7 @@ class RtlDevice : public cmodel::Device {
   /// Leaves the answers to a read and a write waiting; without `read_too` only the write's, with the read under way. A
   /// reset has to follow.
   virtual void leave_answers_waiting(bool read_too) = 0;
-  /// Resets again in the middle of whatever is going on, for so many cycles; memories keep what they hold, counters
+  /// Resets again in the middle of any work, for so many cycles; memories keep what they hold, counters
   /// restart. Answers and pixels are not taken meanwhile. Throws UserError (Simulation) if one is still there
   /// afterwards.
   virtual void warm_reset(int cycles = kResetCycles) = 0;
@@ -97,7 +97,7 @@ class RtlDevice : public cmodel::Device {
 void require_rtl(const cmodel::Config& config, const std::vector<RtlAbilities>& abilities,
                  const std::string& otherwise = {});
 
-/// The RTL of the configuration, whatever its name; built if needed (rtl_module.hpp). Throws as require_rtl(), and
+/// The RTL of the configuration, under any name; built if needed (rtl_module.hpp). Throws as require_rtl(), and
 /// UserError (Simulation) if the configuration hash in the device's registers is not `config`'s. While the device runs,
 /// UserError (Simulation) reports that it hangs, that it refused the stream, or which assertion of the RTL failed,
 /// where and in which cycle.

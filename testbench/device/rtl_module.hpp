@@ -13,7 +13,7 @@
 
 namespace fastsplat::testbench {
 
-/// What a simulator can do beyond simulating.
+/// Features of a simulator beyond simulating.
 struct RtlAbilities {
   bool wave = false;    ///< write waveforms; slow
   bool faults = false;  ///< hold the faults of testbench/faults/faults.def, SimulatorOptions::fault selects one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns what the RTL shows by bank into the tap records of the model: window order, tile and sheet numbers,
+// Converts the RTL's values by bank into the tap records of the model: window order, tile and sheet numbers,
 // tile-relative places. Knows no simulator type.
 #pragma once
 

@@ -54,7 +54,7 @@ void Host::clock() {
   top_->m_axis_tready = running && (timings_.sink_pause == 0 || cycle_ % timings_.sink_pause != 0) ? 1 : 0;
   top_->aclk = 0;
   top_->eval();
-  // What is valid and ready before the edge is transferred by it.
+  // A beat that is valid and ready before the edge is transferred by it.
   const bool taken = offers && top_->s_axis_tready != 0;
   if (top_->m_axis_tvalid && top_->m_axis_tready) {
     PixelBeat beat{

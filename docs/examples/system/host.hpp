@@ -15,7 +15,7 @@
 
 namespace fastsplat::examples {
 
-/// What the memory and the sink do to the device: a source that pauses between bursts, a sink that is not always ready.
+/// Behaviour of the memory and the sink: a source that pauses between bursts, a sink that is not always ready.
 struct SystemTimings {
   unsigned burst_beats = 64;  ///< read from memory without a pause
   unsigned latency = 20;      ///< cycles between bursts
@@ -46,7 +46,7 @@ class Host {
   void start(std::vector<cmodel::Beat> memory);
   /// False if none came within so many cycles.
   bool wait_for_interrupt(std::uint64_t cycles);
-  /// Takes what was not read yet back: a soft reset follows.
+  /// Withdraws the beats that were not read yet: a soft reset follows.
   void stop();
 
   std::uint64_t cycle() const { return cycle_; }

@@ -19,7 +19,7 @@ package fastsplat_dpi_pkg;
   import "DPI-C" function string fastsplat_checker_first_mismatch(input chandle judge);
   import "DPI-C" function string fastsplat_checker_summary(input chandle judge);
 
-  // What the device shows and takes, in the order of its cycles, within a cycle in this order; tile: tap_tile_o.
+  // The device's outputs and taken beats, in the order of its cycles, within a cycle in this order; tile: tap_tile_o.
   import "DPI-C" function int fastsplat_dpi_snap(
     input chandle judge, input longint unsigned cycle, input int unsigned tile, input int unsigned tag,
     input int unsigned x, input int unsigned y, input int unsigned mx, input int unsigned my);

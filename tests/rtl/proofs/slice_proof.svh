@@ -42,7 +42,7 @@ always @(posedge clk_i) begin
     assert (ready_o == (f_count_q < 2'd2 && !f_reset_q));
     assert (!f_followed_q || f_behind_q || (valid_o && data_o == f_data_q));
     assert (!f_waited_q || (valid_o && data_o == f_offered_q));
-    // Where it is, for induction.
+    // The places of the followed beat, for induction.
     assert (f_count_q == 2'(valid_o) + 2'(spare_q));
     assert (!f_followed_q || !f_behind_q || (f_count_q == 2'd2 && spare_data_q == f_data_q));
     cover (f_followed_q && f_behind_q && f_gives);

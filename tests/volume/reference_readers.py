@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""judges.py FASTSPLAT FOLDER: volumes that nibabel and teem-unu write are read as they read them, voxel by voxel.
+"""reference_readers.py FASTSPLAT FOLDER: volumes written by nibabel and teem-unu read as in those programs, voxel by voxel.
 
 Prints how many files agree. Exits with 1 where one does not, with 77 where a judge is missing."""
 import itertools

@@ -9,7 +9,7 @@
 
 namespace fastsplat {
 
-/// Any number that a double has, also nan and inf; a leading + is allowed. What is too small is 0 and what is too large
+/// Any number that a double has, also nan and inf; a leading + is allowed. Values too small are 0, values too large
 /// infinite.
 inline std::optional<double> double_from(std::string_view text) {
   if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);

@@ -140,7 +140,7 @@ plan::Vocabulary plan_vocabulary() {
 }
 
 void require_content(const plan::Plan& plan, const std::string& plan_file) {
-  plan::require_made(plan, plan_vocabulary(), plan_file);  // first: it knows every subcommand that follows
+  plan::require_made(plan, plan_vocabulary(), plan_file);  // first: it has every later subcommand
   for (const auto& one : plan.cases) {
     if (content_of(one.settings, subcommands_of(one)) == one.content) continue;
     throw_input(

@@ -56,7 +56,7 @@ std::string name_of(cmodel::IndexKind kind);
 cmodel::IndexKind kind_of(const std::string& name);
 
 char letter(Remark remark);
-/// What the letter means.
+/// Meaning of the letter.
 std::string sentence(Remark remark);
 
 }  // namespace fastsplat::analysis

@@ -10,7 +10,7 @@
 
 namespace fastsplat::plan {
 
-/// What this folder needs from the program: its subcommands, and the content behind the names in settings.
+/// The program's interface for this folder: its subcommands, and the content behind the names in settings.
 struct Vocabulary {
   /// "--size", ...; throws UserError (Usage) for an unknown subcommand.
   std::function<std::vector<std::string>(const std::string& subcommand)> flags_of;

@@ -32,7 +32,7 @@ std::string function_of(const Description& subcommand) {
 /// Functions that offer a value's names, one per distinct list.
 class Lists {
  public:
-  /// What _arguments runs for `offer`.
+  /// The command that _arguments runs for `offer`.
   std::string action(const Offer& offer) {
     if (offer.words.empty()) return offer.files ? "_files" : offer.folders ? "_files -/" : " ";
     for (std::size_t at = 0; at < offers_.size(); ++at) {

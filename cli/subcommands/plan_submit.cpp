@@ -43,7 +43,7 @@ struct PlanSubmitArguments {
   bool slurm() const { return engine == "slurm"; }
 };
 
-/// What was submitted, or would be in a dry run.
+/// The submission, real or as a dry run.
 struct PlanSubmitResult {
   plan::Submission submission;
   std::vector<plan::JobArray> arrays;

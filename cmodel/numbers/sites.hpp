@@ -56,7 +56,7 @@ constexpr std::array<SiteFacts, kSiteCount> kSiteFacts{{
     {"pixel_out", &Counters::pixel_saturated},
     {"pixel_sum", &Counters::pixel_saturated},
 }};
-/// Sums of words of one format: no fraction bit is dropped, whatever the configuration.
+/// Sums of words of one format: no fraction bit is dropped in any configuration.
 constexpr bool is_sum(Site site) { return site == Site::Sum || site == Site::Over || site == Site::SumOver; }
 constexpr const SiteFacts& facts(Site site) { return kSiteFacts[static_cast<std::size_t>(site)]; }
 

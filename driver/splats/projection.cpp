@@ -142,7 +142,7 @@ void check_textures(const scene::TexturedSplats& textures, const scene::Scene& s
 
 }  // namespace
 
-// The device holds footprints no wider than the RLUT, whatever computes their weights.
+// The device holds footprints no wider than the RLUT, in every kind of index.
 void check_reach(double reach, const cmodel::Config& config) {
   const double widest = config.rlut_columns / 2.0;
   if (reach <= widest) return;

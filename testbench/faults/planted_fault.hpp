@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults planted on purpose, to see what a failure looks like: in the RTL of a breakable device, or at the ports of any
+// Faults planted on purpose, to show the form of a failure: in the RTL of a breakable device, or at the ports of any
 // device, in front of its checker.
 #pragma once
 
@@ -20,7 +20,7 @@ struct PlantedFault {
   };
   const char* name;
   Where where;
-  const char* meaning;  ///< what is broken, one line
+  const char* meaning;  ///< the fault, one line
 };
 
 /// The configuration whose RTL has the fault; faults at the ports exist in any.

@@ -8,7 +8,7 @@
 
 namespace fastsplat::testbench {
 
-/// PORT_FAULT(NAME, what is broken). Each is a function of the stream, not of time: a smaller stream shows it as well.
+/// PORT_FAULT(NAME, description). Each is a function of the stream, not of time: a smaller stream shows it as well.
 #define FASTSPLAT_PORT_FAULTS(PORT_FAULT)                                                                    \
   PORT_FAULT(PORT_SNAP, "tap snap: one phase more in x for every seventh splat of a tile")                   \
   PORT_FAULT(PORT_FOOTPRINT, "tap footprint: last bit of the first weight of every seventh splat of a tile") \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What AXI4-Stream and AXI4-Lite demand of fastsplat_top's ports, and docs/integration.md of its pixels: checked in every simulation.
+// Requirements of AXI4-Stream and AXI4-Lite on fastsplat_top's ports, and of docs/integration.md on its pixels: checked
+// in every simulation.
 `include "assertions.svh"
 
 module fastsplat_port_rules (
@@ -29,7 +30,7 @@ module fastsplat_port_rules (
     input logic [1:0] rresp_o
 );
   localparam int P = fastsplat_pkg::LANES;
-  // A transfer that is offered stays as it is until it is taken.
+  // An offered transfer does not change until it is taken.
   `FASTSPLAT_ASSUME_HELD(beat_held, s_tvalid_i && !s_tready_o, s_tvalid_i, s_tdata_i)
   `FASTSPLAT_ASSERT_HELD(pixels_held, m_tvalid_o && !m_tready_i, m_tvalid_o, {m_tdata_o, m_tkeep_i, m_tlast_o, m_tuser_o})
   `FASTSPLAT_ASSERT_HELD(write_response_held, bvalid_o && !bready_i, bvalid_o, bresp_o)

@@ -96,7 +96,7 @@ class SimulatedTop {
   virtual void eval() = 0;
   /// Whether an assertion has failed since the start.
   virtual bool failed() const = 0;
-  /// What the simulator has printed in this thread since the last call.
+  /// Text that the simulator has printed in this thread since the last call.
   virtual std::string take_output() = 0;
   /// Begins a waveform (FST). False: the file cannot be written, or this simulator cannot. When the simulator ends, the
   /// names of all ports lie in PATH.ports (wave_ports.hpp).

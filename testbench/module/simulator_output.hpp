@@ -9,7 +9,7 @@ namespace fastsplat::testbench {
 
 /// Replaces printf in the simulator's runtime. Output is kept by thread: one thread runs a device.
 int simulator_print(const char* format, ...) __attribute__((format(printf, 1, 2)));
-/// What was printed since the last call.
+/// Text printed since the last call.
 std::string take_simulator_output();
 
 }  // namespace fastsplat::testbench

@@ -20,7 +20,7 @@ struct CampaignOptions {
   std::uint64_t splats = 1000;  ///< per seed, shared by the classes
   std::uint64_t seeds = 1;      ///< seed, seed+1, ...
   std::vector<StimulusClass> classes = stimulus_classes();
-  bool keep_going = false;  ///< runs all, whatever fails
+  bool keep_going = false;  ///< runs all, even after failures
   bool as_files = false;    ///< streams are laid out as files (arranged()); UserError (Usage) if no image holds them
   int threads = 0;          ///< streams in parallel; 0: all cores. Never changes a result.
   std::function<void(std::size_t done, std::size_t of)> progress;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the directed checks share: a small stream with every record, where its records lie, and a check that hits bins.
+// Shared by the directed checks: a small stream with every record, the places of its records, and a check that hits
+// bins.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Record {
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
 /// The beat of the first record of a kind that the stream has.
 std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode wanted);
-/// Overwrites a field, whatever it holds.
+/// Overwrites a field.
 void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value);
 
 /// The first small stream that has a cull_block and a tile of two sheets, so that every record occurs. If none has, the

@@ -163,7 +163,8 @@ Beat beside(const Beat& begin, const cmodel::Field& field, int bit) {
   return out;
 }
 
-/// Of a device with slices: behind a reset beats are dropped up to the next begin_frame, and all while CONTROL says so.
+/// For a device with slices: after a reset beats are dropped up to the next begin_frame, and all while CONTROL requests
+/// it.
 void drop_what_a_reset_leaves(Frames& frames, std::span<const Beat> beats, Check& check) {
   const auto bin = check.bin("refusal", kFrameAfterFrameBins[3]);
   const std::size_t part = beats.size() / 2;

@@ -192,7 +192,7 @@ void Frames::pause(const std::function<void()>& meanwhile) {
 void Frames::end(const std::string& what, Coverage::Id bin, bool in_table) {
   device_->finish();
   relay_.to = nullptr;
-  if (in_table) return;  // neither model knows an end there, and nothing but words was taken
+  if (in_table) return;  // neither model has an end there, and only words were taken
   record(what, checker_->finish(device_->counters(), device_->cycle_counters()), bin);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has to go on working in the middle of a frame: registers that answer, interrupts that wait for the last pixel,
+// Work that continues in the middle of a frame: registers that answer, interrupts that wait for the last pixel,
 // counting from 0 after a reset.
 #pragma once
 

@@ -194,7 +194,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
       damaged.erase(damaged.begin(), begin);
       if (damaged.empty()) continue;
     }
-    // What comes behind an end_frame is another frame.
+    // The beats after an end_frame are another frame.
     const auto end = first_end(config, damaged);
     if (end) damaged.resize(*end);
     const std::string what = "damaged stream " + std::to_string(i);

@@ -160,7 +160,7 @@ class Generator {
       for (const auto table : tables) document.tables.push_back(random_density_table(config_, random_, table));
     }
     if (random_.chance(30)) {
-      // What was loaded last counts.
+      // The words loaded last count.
       const std::uint32_t again = first_set_ + static_cast<std::uint32_t>(random_.between(0, sets_ - 1));
       document.tables.push_back(random_rlut(config_, random_, style(), again, least, most));
     }
@@ -170,7 +170,7 @@ class Generator {
   }
 
   cmodel::BeginTile begin_tile() {
-    // Small tiles mostly: a tile costs its pixels, whatever is splatted into it.
+    // Small tiles mostly: a tile costs its pixels, with or without splats.
     const auto side = [this](int most) {
       // Narrower than a window: it reaches over both edges.
       if (which_ == StimulusClass::ScreenEdges && random_.chance(25))
@@ -366,7 +366,7 @@ class Generator {
     return words;
   }
 
-  /// The hot spot, moved by up to a window's side: windows just overlap what was there, or just miss it.
+  /// The hot spot, moved by up to a window's side: windows just overlap the previous ones, or just miss them.
   Place beside_hot() {
     Place at = hot_;
     const auto format = config_.position_format();

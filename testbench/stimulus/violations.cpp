@@ -279,7 +279,7 @@ class List {
   }
 
   void sheet() {
-    // Of the first tile that has two.
+    // In the first tile that has two.
     std::size_t first = beats_.size();
     for (const Record& record : records_) {
       if (record.opcode == Opcode::BeginTile) first = beats_.size();
@@ -294,7 +294,7 @@ class List {
     }
   }
 
-  /// Tables of densities and what tiles of densities require, whatever the stream's own tile is.
+  /// Tables of densities and the requirements of density tiles, for any tile of the stream.
   void densities() {
     using cmodel::Table;
     const std::size_t tile = at(Opcode::BeginTile), sheet = at(Opcode::BeginSheet);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams that break one rule each: what a device has to refuse.
+// Streams that break one rule each, which a device must refuse.
 #pragma once
 
 #include <functional>

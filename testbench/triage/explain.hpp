@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The operands behind one word of the model, recomputed unit by unit: what a divergence report shows besides the
-// values.
+// The operands behind one word of the model, recomputed unit by unit, for divergence reports.
 #pragma once
 
 #include <string>

@@ -80,7 +80,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
       return same_failure(failed, verify(source_of(beats), run));
     } catch (const UserError& error) {
       if (error.code() != ExitCode::Input) throw;
-      return false;  // a cull_block covers fewer splats than it says
+      return false;  // a cull_block covers fewer splats than it announces
     }
   };
   report.original = first_divergence(failed, options.config);

@@ -84,7 +84,7 @@ std::string wave_view(const std::string& waveform, std::istream& ports, const st
       add(units, unit, signal);
     }
   }
-  // GTKWave finds the waveform by its place relative to the save file, whatever folder it is started in.
+  // GTKWave finds the waveform by its place relative to the save file, from any folder.
   std::string text =
       fmt::format("{}\n[dumpfile] \"{}\"\n[savefile] \"{}\"\n[size] 1600 1000\n[sst_width] 250\n[signals_width] 320\n",
                   kWaveViewMark, waveform, std::filesystem::path(waveform).replace_extension(".gtkw").string());

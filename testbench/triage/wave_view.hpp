@@ -9,7 +9,7 @@
 
 namespace fastsplat::testbench {
 
-/// What to look at first.
+/// The instance to show first.
 struct WaveFocus {
   std::uint64_t cycle = 0;  ///< the marker stands at this clock edge
   std::string instance;     ///< below fastsplat_dut; its ports come first. Empty for none

@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EllipseFrames,
                                            IndexKind::SquaredElliptic),
                          [](const auto& param_info) { return name_of(param_info.param); });
 
-// N-4.6-1: whatever index.kind, except linear.
+// N-4.6-1: every index.kind except linear.
 TEST_P(EllipseFrames, ModelEqualsOracleOnRandomConfigurations) {
   Random random(seed_or(71));
   Campaign total;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a splat sum exactly to the splat, whatever its depth within its slab.
+// The slices of a splat sum exactly to the splat, at any depth within its slab.
 #include "driver/splats/slices.hpp"
 
 #include <gtest/gtest.h>

@@ -124,7 +124,7 @@ TEST_F(JournalFile, RefusesWhatIsNone) {
       EXPECT_EQ(error.code(), ExitCode::Input);
       EXPECT_EQ(error.parts().where.find(path_.string() + ":"), 0u) << error.what();
     }
-    EXPECT_EQ(bytes(), text) << "a file that is no journal was changed";
+    EXPECT_EQ(bytes(), text) << "a file that is not a journal was changed";
   }
 }
 

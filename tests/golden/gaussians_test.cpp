@@ -149,7 +149,7 @@ TEST(GoldenGaussians, CostOfTheOrderOfCentres) {
     figure(std::string(name) + ": largest difference of opacity", alpha);
     EXPECT_LT(alpha, 1.01e-4);
     EXPECT_GT(apart, 30.0);
-    EXPECT_LT(apart, 80.0) << "another order that changes nothing is none";
+    EXPECT_LT(apart, 80.0) << "the other order must change something";
     EXPECT_GT(by_centres, 100000U);
     EXPECT_GT(by_pixels, 100000U);
   }

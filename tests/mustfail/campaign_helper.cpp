@@ -118,7 +118,7 @@ std::vector<cmodel::Beat> early_freeze(const cmodel::Config& config, std::uint64
   Random random(seed);
   StreamWriter w(c);
   Tables tables(c, random, 0);
-  // One splat is opaque: FACTOR is what a depth is multiplied by.
+  // One splat is opaque: FACTOR multiplies a depth.
   for (auto& word : tables.factor) word = 1U << c.of;
   for (auto& word : tables.radial) word = (1U << c.wf) - 1;
   w.begin_frame(c.W, c.H * static_cast<int>(kTiles), kTiles);

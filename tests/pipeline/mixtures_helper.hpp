@@ -12,7 +12,8 @@
 
 namespace fastsplat::stages::test {
 
-/// Of all methods of the device, both projections, whole and cropped, faint and opaque; some twenty pixels across.
+/// Scenes of all methods of the device, both projections, whole and cropped, faint and opaque; some twenty pixels
+/// across.
 scene::SceneDescription random_scene(fastsplat::test::Random& random);
 /// Small scenes of three kinds.
 std::vector<scene::SceneDescription> small_scenes();

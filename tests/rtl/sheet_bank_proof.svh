@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proof of a sheet bank's forwarding, read inside sheet_bank under FASTSPLAT_PROOF: the sum shown at W for any one word is
-// the saturated sum of all products that went to it since it was last cleared, whatever the order of addresses, the gaps
-// between them (M-forward-3) and the word that a colliding read returns (M-forward-1).
+// Proof of a sheet bank's forwarding, read inside sheet_bank under FASTSPLAT_PROOF. For any one word, the sum shown at
+// W is the saturated sum of all products sent to it since it was last cleared. This holds for every order of addresses,
+// every gap between them (M-forward-3) and every word that a colliding read returns (M-forward-1).
 
-// What the array promises (proved of the whole: proofs/core_proof.svh): memories are wiped first, each word once, before anything
-// moves, and the compositor touches a memory no window is on its way to.
+// Assumed of the array (proved in proofs/core_proof.svh): memories are wiped first, each word once, before anything
+// moves. The compositor touches only memories that no window is on its way to.
 logic started = 1'b0, known = 1'b0, moved = 1'b0, in_reset = 1'b1;
 always @(posedge clk_i) begin
   started <= 1'b1;
@@ -46,7 +46,8 @@ end
 logic [4*SB-1:0] memory_word;
 assign memory_word = any_buffer ? probe[1] : probe[0];
 `FASTSPLAT_ASSERT(sum_is_complete, !(started && known && at_w) || sum_w == truth)
-// For induction: what is not on its way is in the memory, and nothing is on its way before the memories are wiped.
+// For induction: a word that is not on its way is in the memory, and no word is on its way before the memories are
+// wiped.
 `FASTSPLAT_ASSERT(memory_is_complete, !(started && known && !at_w) || memory_word == truth)
 `FASTSPLAT_ASSERT(empty_until_wiped, !started || known || in_reset || !(valid_b_q || valid_c_q || valid_w_q || comp_clear_q))
 `FASTSPLAT_COVER(forwarded_from_both, known && at_w && at_c && hit_w && hit_h)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """reference_readers.py FASTSPLAT FOLDER: volumes written by nibabel and teem-unu read as in those programs, voxel by voxel.
 
-Prints how many files agree. Exits with 1 where one does not, with 77 where a judge is missing."""
+Prints how many files agree. Exits with 1 where one does not, with 77 if a reader is missing."""
 import itertools
 import pathlib
 import shutil
@@ -35,7 +35,7 @@ def converted(path):
     return nibabel.load(out)
 
 
-def compare(judge, files):
+def compare(reader, files):
     """files: path, the voxels it should have, its affine or None."""
     agree = total = 0
     for path, voxels, affine in files:
@@ -48,8 +48,8 @@ def compare(judge, files):
                 raise ValueError(f"another place:\n{ours.affine}\n{affine}")
             agree += 1
         except ValueError as error:
-            print(f"{judge}: {path.name}: {error}")
-    print(f"[figure] volumes read as {judge} reads them = {agree} of {total}")
+            print(f"{reader}: {path.name}: {error}")
+    print(f"[figure] volumes read as {reader} reads them = {agree} of {total}")
     return agree == total and total > 0
 
 

@@ -55,7 +55,7 @@ Narrowed narrow(Rounding rounding, Overflow overflow, Wide value, int from_f, co
       break;
   }
 
-  // N-1-4: the range; N-1-5: what is reported.
+  // N-1-4: the range; N-1-5: the reports.
   const bool outside = word < words.smallest || word > words.largest;
   if (outside && overflow == Overflow::Sat) word = word < words.smallest ? words.smallest : words.largest;
   if (outside && overflow == Overflow::Wrap)

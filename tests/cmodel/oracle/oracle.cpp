@@ -185,7 +185,7 @@ class Renderer {
         if (w > 0) ++out.counts["lanes_weighted"];
         Pixel& p = at(x0 + i, y0 + j);
         const Words sums_format = u(c.si, c.sf);
-        Four products;  // N-5-2; what is cut counts (N-9-11)
+        Four products;  // N-5-2; saturation counts (N-9-11)
         for (std::size_t ch = 0; ch < 4; ++ch)
           products[ch] = sat(c.Rp, Wide{splat.v[ch]} * w, c.cf + c.wf, sums_format, "product_saturated");
         // Every sample: composited at once; the end of the sheet does nothing (N-6-12, N-6-13).
@@ -353,7 +353,7 @@ class Renderer {
   void take(const SheetEnd&) {
     ++out.counts["sheets"];  // N-9-9
     if (densities()) {
-      // The sheet before this one, whatever its number (N-6.2-4).
+      // The previous sheet, with any number (N-6.2-4).
       if (density_sheets.size() > 1) classify_sheet(std::prev(density_sheets.end(), 2)->first);
       return;
     }

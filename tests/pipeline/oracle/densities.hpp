@@ -18,7 +18,7 @@ class Densities {
  public:
   Densities(const scene::Scene& scene, const cmodel::Config& config, const Mixture& mixture, int sheets);
 
-  /// R, G, B and optical depth of pixel (x, y) of sheet `sheet`: its density, and what the page calls dx, dy, dz.
+  /// R, G, B and optical depth of pixel (x, y) of sheet `sheet`: its density, and the page's dx, dy, dz.
   std::array<double, 4> operator()(double density, const std::array<double, 3>& d, int x, int y, int sheet,
                                    Closeness& closeness) const;
 

@@ -72,7 +72,7 @@ class Frame {
 
   bool densities() const { return scene_.description.classify == scene::ClassifyOrder::Post; }
 
-  /// Steps sheet to freeze, at the end of a sheet; of one sample, and of what was a density, from factor on.
+  /// Steps sheet to freeze, at the end of a sheet; for one sample, and for a former density, from factor on.
   void composite(Values s, Pixel& pixel) const {
     if (!samples() && !densities()) cut_sum(s);
     if (s == Values{}) return;
@@ -151,7 +151,7 @@ class Frame {
       const long double root = std::sqrt(d * std::pow(4.0L, g));
       steps = std::floor(root);
       compare(static_cast<double>(root), std::round(static_cast<double>(root)), 0, closeness);
-      // The largest s with s^2 <= D 4^g, whatever the root's own last bit.
+      // The largest s with s^2 <= D 4^g, independent of the root's own last bit.
       while (steps * steps > d * std::pow(4.0L, g)) steps -= 1.0L;
       while ((steps + 1.0L) * (steps + 1.0L) <= d * std::pow(4.0L, g)) steps += 1.0L;
     }

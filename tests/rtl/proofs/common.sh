@@ -21,8 +21,8 @@ seconds() { awk -v from="$1" -v to="$(date +%s.%N)" 'BEGIN { printf "%.1f", to -
 rtl_of() { echo "fastsplat_${1#fastsplat_}"; }
 file_of() { find "$source/rtl" -name "$(rtl_of "$1").sv"; }
 
-# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 sits still over pixel_payload_held, which
-# compares all 256 bits; pixel out's specification says more.)
+# with_spec MODULE SPECIFICATION: the module with the text before its end. (z3 does not end on pixel_payload_held, which
+# compares all 256 bits; pixel out's specification is stronger.)
 with_spec() {
   awk -v spec="$2" '/pixel_payload_held/ { next } /^endmodule/ { while ((getline line < spec) > 0) print line } { print }' "$(file_of "$1")"
 }
@@ -43,9 +43,9 @@ package() {
   cat "$work/package.new"
 }
 
-# unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE it, the
-# modules CUT with free outputs: whatever they say, as do $cut_wires. $connects ties undriven names of a specification to registers below. EDIT breaks
-# a line of the module FILE; lines of the specification with $without in them are left out.
+# unit NAME MODULE BESIDE CUT [FILE EDIT]: NAME.smt2 of MODULE (with its specification inside) and the modules BESIDE
+# it. The modules CUT have free outputs, as have $cut_wires. $connects ties undriven names of a specification to
+# registers below. EDIT breaks a line of the module FILE. Lines of the specification that contain $without are left out.
 unit() {
   if passed_over "$1"; then return; fi
   name=$1 module=$2 beside=$3 cut=$4 file=${5-} edit=${6-}

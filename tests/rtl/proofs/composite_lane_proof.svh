@@ -4,7 +4,7 @@
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 localparam logic [TB-1:0] F_ONE = TB'(1) << fastsplat_pkg::TRANS_FRAC;
-// A block moves on every cycle: what is in k5 was in k4. A tile's mode holds.
+// A block moves on every cycle: the block in k5 was in k4. A tile's mode holds.
 logic f_k4_q = 1'b0;
 always @(posedge clk_i) f_k4_q <= valid_i[4];
 always @* assume (valid_i[5] == f_k4_q);
@@ -19,7 +19,7 @@ always @* begin
     end
   end else for (int c = 0; c < 4; c++) assume ((state_i[c*DB+:DB] >> SB) == '0 && (slab_i[c*DB+:DB] >> SB) == '0);
 end
-// State and slab of what is in k5 and k6.
+// State and slab in k5 and k6.
 logic f_k5_q = 1'b0, f_k6_q = 1'b0;
 logic [4*DB-1:0] f_before_k5_q, f_before_q, f_slab_k5_q, f_slab_q;
 logic [TB-1:0] f_trans, f_trans_after;
@@ -104,7 +104,7 @@ for (genvar c = 0; c < 4; c++) begin : gen_f_channel
     always @(posedge clk_i) if (f_started && f_k6_q && f_mode == 2'd0) cover (saturated_o[c]);
   end
 end
-// Every sample: what is forwarded out of k5 is what k6 will hold (samples_proof.svh assumes it).
+// Every sample: the value forwarded out of k5 is the one that k6 will hold (samples_proof.svh assumes it).
 logic f_next_known_q = 1'b0;
 logic [4*DB-1:0] f_next_q;
 always @(posedge clk_i) begin

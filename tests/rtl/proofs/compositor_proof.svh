@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compositor's pipe and its picture (docs/microarchitecture.md, "Pipe" and "Pixel out"), written again from the page and put
-// inside compositor by prove_control.sh: what is picked in k0 is written in k6; a word of the picture has one writer, is read as
-// it was written last, and is blank behind the wipe and behind pixel out. One word is looked at: any. The walk and the arithmetic
-// say what they will, and reading the word that is being written gives anything.
+// The compositor's pipe and its picture (docs/microarchitecture.md, "Pipe" and "Pixel out"), written again from the
+// page and put inside compositor by prove_control.sh. A block picked in k0 is written in k6. A word of the picture has
+// one writer, reads as written last, and is blank behind the wipe and behind pixel out. The proof follows one arbitrary
+// word. The walk and the arithmetic are free; reading the word that is being written returns an arbitrary value.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -10,8 +10,8 @@ always @* if (!f_started) assume (!rst_ni);
 (* anyconst *) logic [fastsplat_pkg::LANE_LOG2-1:0] f_g, f_h;  // its bank's column and row
 always @* assume (32'(f_block) < NB);
 
-// What is picked in k0 is written in k6 (M-pipe-1). A block is picked in all of its slices, one behind the other; the word is in one of
-// them (M-slices-1).
+// A block picked in k0 is written in k6 (M-pipe-1). It is picked in all of its slices, one after the other; the word is
+// in one of them (M-slices-1).
 logic [6:1] f_way_q, f_mine;
 logic [AB-1:0] f_at_q[1:6];
 logic [LB-1:0] f_slice_q[0:6];  // 0: the next to be picked
@@ -146,7 +146,7 @@ always @(posedge clk_i) begin
     assert (valid_q == f_way_q);
     for (int s = 1; s <= 6; s++) assert (!f_way_q[s] || (addr_q[s] == f_at_q[s] && (R == 1 || slice_q[s] == f_slice_q[s]) && 32'(f_slice_q[s]) < R));
     assert (32'(f_slice_q[0]) < R);
-    // What is picked in the cycle after a slice that is not the last is the next one of the block.
+    // The pick after a slice that is not the last is the next slice of the block.
     for (int s = 1; s <= 6; s++) begin
       if (f_way_q[s] && f_slice_q[s] != '0) begin
         if (s < 6) assert (f_way_q[s+1] && f_at_q[s+1] == f_at_q[s] && f_slice_q[s+1] == f_slice_q[s] - LB'(1));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How check, decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put inside fastsplat_core
-// by prove_core.sh: a memory has one owner at a time, which sheet_bank_proof.svh assumes; what dirty_map_proof.svh,
-// compositor_proof.svh and stream_decode_proof.svh assume of each other; and no deadlock. The source sends what it will and soft resets
-// come at any time. Data is cut off: any pixel may lie inside, and check may call any field of a record right or wrong, in its place or
-// out of it (which fields are: stream_check_proof.svh); the walk picks what it will, in the cycles that dirty_map_proof.svh has,
-// a block in as many cycles as it has slices, and is read in the first.
-// Names that nothing drives are tied to registers below by the script; stage 0 of the pipe is decode's output.
+// How check, decode, splat path, compositor and pixel out share the sheet buffers (docs/microarchitecture.md), put
+// inside fastsplat_core by prove_core.sh. Proved: a memory has one owner at a time (assumed by sheet_bank_proof.svh);
+// the assumptions that dirty_map_proof.svh, compositor_proof.svh and stream_decode_proof.svh make of each other; no
+// deadlock. The source is free and soft resets come at any time. Data is cut off: any pixel may lie inside, and check
+// may call any field of a record right or wrong (the true ones are in stream_check_proof.svh). The walk picks freely in
+// the cycles of dirty_map_proof.svh, a block in as many cycles as it has slices, and is read in the first. The script
+// ties undriven names to registers below; stage 0 of the pipe is decode's output.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -178,7 +178,7 @@ always @(posedge clk_i) begin
     for (int m = 0; m < 2; m++) assert (!f_full[m] || f_age_q[m] != '0);
     for (int s = 1; s <= 5; s++) assert (f_marked_way_q[s] == f_last[s+4]);
     assert (!(f_cleared_q && f_valid[0] && f_of[0] == f_cleared_of_q && !f_full[f_cleared_of_q]));
-    // What check passed and decode carried out: one beat lies between.
+    // Beats passed by check and carried out by decode: one beat lies between.
     assert (f_check_place <= 3'd4);
     assert (!f_here || f_check_wants == (f_check_opcode == 8'h46 ? 3'd0 : f_check_opcode == 8'h53 || f_check_opcode == 8'h74 ? 3'd3 :
                                          f_check_opcode == 8'h50 || f_check_opcode == 8'h45 || f_check_opcode == 8'h43 || f_check_opcode == 8'h73 ? 3'd4 : 3'd1));

@@ -5,7 +5,7 @@ logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
 
-// What the page says is pending, and with what answer; a read's address that was taken a cycle ago.
+// The accesses that are pending by the page, with their answers; a read's address that was taken a cycle ago.
 logic f_taken_q, f_read_q, f_write_q;
 logic [11:0] f_address_q;
 logic [31:0] f_data_q;
@@ -75,7 +75,7 @@ always @(posedge clk_i) begin
     if (awaddr_i == 12'h020) f_irq_q <= f_irq_q & ~wdata_i[2:0];
     if (awaddr_i == 12'h024) f_mask_q <= wdata_i[2:0];
   end else if (bready_i) f_write_q <= 1'b0;
-  // What happens in the cycle of a write stays (M-register-7).
+  // Events in the cycle of a write stay (M-register-7).
   if (frame_i) f_irq_q[0] <= 1'b1;
   if (tile_i) f_irq_q[1] <= 1'b1;
   if (error_i && !f_refused_q) f_irq_q[2] <= 1'b1;
@@ -84,7 +84,7 @@ always @(posedge clk_i) begin
   // Modulo 2^counters.bits (M-register-11). A clear counts what comes with it neither before nor after (M-register-13).
   for (int n = 0; n < N; n++) f_truth_q[n] <= 64'(CB'(f_truth_q[n] + 64'(increments_i[16*n+:16])));
   if (f_take_write && awaddr_i == 12'h014 && wdata_i[0]) for (int n = 0; n < N; n++) f_truth_q[n] <= '0;
-  // What was pending or offered is lost (M-reset-3). A soft reset clears nothing here (M-check-12).
+  // Pending and offered accesses are lost (M-reset-3). A soft reset clears nothing here (M-check-12).
   if (!rst_ni) begin
     f_taken_q <= 1'b0;
     f_read_q <= 1'b0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cull map and its tables (docs/microarchitecture.md, "Map"; docs/numerics.md, N-6.1-4, N-6.1-5), written again and put inside cull_map
-// by prove_cull.sh: 2 x 2 blocks. What a rectangle's words say is how many of its blocks were opaque when the last sheet but one had
-// been composited, and so is what windows are looked up in; with cull_windows' proof no window is left out of which a pixel in the tile
-// was not frozen. The compositor is any that keeps the page's times: blocks in rising order, a sheet's first in k6 four cycles after
-// the last of the one before, T never rising.
+// The cull map and its tables (docs/microarchitecture.md, "Map"; docs/numerics.md, N-6.1-4, N-6.1-5), written again and
+// put inside cull_map by prove_cull.sh: 2 x 2 blocks. A rectangle's words give the number of its blocks that were
+// opaque when the last sheet but one had been composited; so does the map for windows. With cull_windows' proof, no
+// window is left out if a pixel of it in the tile was not frozen. The compositor is any that keeps the page's times:
+// blocks in rising order, a sheet's first in k6 four cycles after the last of the previous one, T never rising.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* assume (rst_ni == f_started);
@@ -35,7 +35,7 @@ always @* begin
   // inside the tile
   assume (!block_valid_i || ((32'(block_i) % BX) * P < 32'(f_width) && (32'(block_i) / BX) * P < 32'(f_height)));
   assume (!block_valid_i || ((AB + 1)'(block_i) >= f_least_q && f_gap_q == 2'd3));
-  // frozen stays frozen; changed says that it was not before
+  // frozen pixels stay frozen; changed: it was not frozen before
   assume (!(block_valid_i && f_now_q[block_i]) || (frozen_i == '1 && !changed_i));
   assume (!(block_valid_i && frozen_i == '1 && !f_now_q[block_i]) || changed_i);
   assume (!finish_i || f_finish_q[3:1] == '0);
@@ -57,7 +57,7 @@ always @(posedge clk_i) begin
   end
 end
 
-// Decode and the test unit: sheets 0, 1, 2, ...; what each is tested against.
+// Decode and the test unit: sheets 0, 1, 2, ...; the table that each is tested against.
 logic [2:0] f_left_q, f_whole_q;        // sheets that left k6, whole tables
 logic [2:0] f_done_q;                   // sheets whose walk has ended
 logic [F_BLOCKS-1:0] f_after_q[0:1];    // opaque when the sheet of that parity had left k6 (M-cull-8): what its table has to hold (M-cull-13)
@@ -107,7 +107,7 @@ always @(posedge clk_i) begin
   f_read_q <= rst_ni && re_i;
   f_count_q <= f_count;
   if (f_read_q) assert (count_o == f_count_q);  // M-cull-9, M-cull-13
-  // Decode asks for a row three cycles later still: windows have a map of the same moment (M-cull-5, M-cull-13).
+  // Decode requests a row three cycles later still: windows have a map of the same moment (M-cull-5, M-cull-13).
   if (rst_ni && re_i)
     for (int b = 0; b < F_BLOCKS; b++) assert (copy[(sheet_i ? BY : 0)+b/BX][b%BX] == f_after_q[sheet_i][b]);
   cover (f_read_q && f_count_q == B'(1) && f_whole_q >= 3'd2 && f_after_q[0] != f_after_q[1]);

@@ -29,7 +29,7 @@ always @* begin
   end
 end
 always @* begin
-  // In two rows of the block map, whatever the row's length (M-cull-5).
+  // In two rows of the block map, for any row length (M-cull-5).
   assert (seen_o == (there_i & (culls_i ? f_seen : '1)));
   // One of two windows of a tile that ends within a block; a whole row, by an opaque block and the tile's edge.
   cover (culls_i && &there_i && seen_o != '0 && seen_o != '1 && 32'(width_i) % F_P != 0);

@@ -36,7 +36,7 @@ logic f_last_slice;
 assign f_last_slice = 32'(f_slice_q) == F_SLICES - 1;
 assign f_slice_next = !valid_o ? f_slice_q : f_last_slice ? '0 : f_slice_q + fastsplat_pkg::SLICE_BITS'(1);
 
-// The block's mark, as the page has it, and what the walk did to it: its last slice's pick ends it.
+// The block's mark by the page, and the walk's effect on it: its last slice's pick ends it.
 logic f_marked_q, f_picked_q;
 logic f_at_it, f_pick;
 assign f_at_it = valid_o && buffer_o == f_buffer && block_o == f_block;

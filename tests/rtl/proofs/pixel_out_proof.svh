@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixel out sends (docs/microarchitecture.md, "Pixel out"), put inside pixel_out by prove_units.sh: every pixel of a tile of
-// any size once, in order, with the right keep, last and words, marked if the tile was cut short, in the cycles that the page says,
-// whatever the sink does; and each row of the picture is asked for once.
+// The beats of pixel out (docs/microarchitecture.md, "Pixel out"), put inside pixel_out by prove_units.sh. Every pixel
+// of a tile of any size is sent once, in order, with the right keep, last and words, marked if the tile was cut short,
+// in the page's cycles, for any behaviour of the sink. Each row of the picture is requested once.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);
@@ -12,7 +12,7 @@ always @* if (!f_started) assume (!rst_ni);
 (* anyconst *) logic [AB-1:0] f_block;
 (* anyconst *) logic [P*4*DB-1:0] f_upper, f_lower;  // its rows
 localparam int F_SIDE = P * fastsplat_pkg::BLOCKS_X;
-logic [AB-1:0] f_read_q;  // what the picture memories show
+logic [AB-1:0] f_read_q;  // outputs of the picture memories
 always @* begin
   assume (f_width >= 1 && f_width <= SIDE'(F_SIDE) && f_height >= 1 && f_height <= SIDE'(F_SIDE));
   assume (width_i == f_width && height_i == f_height && mode_i == f_mode);

@@ -7,7 +7,7 @@ set -eu
 emit=$1 source=$2 work=$3
 . "$source/tests/rtl/proofs/common.sh"
 
-# --- slab opacity: tiny's own words, of 11 bits; the factor table may hold what a stream may load
+# --- slab opacity: tiny's own words, of 11 bits; the factor table holds any legal words
 package_file="$work/tiny.sv"
 slab() { unit "$1" slab_opacity "" ram_1r1w "${2:+slab_opacity}" "${2-}"; }
 slab slab_opacity

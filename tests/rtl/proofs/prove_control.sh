@@ -64,8 +64,8 @@ holds dirty_map_slices 2 "dirty_map: the same where a block is four slices: each
 happens dirty_map_slices 18
 walk_broken slice_lost "s/(fastsplat_pkg::SLICES - 1) || f3_row_q/(fastsplat_pkg::SLICES - 2) || f3_row_q/"
 
-# --- the compositor's pipe and picture: 2 x 2 blocks of words of a few bits, and memories that give anything when they read what
-# is written
+# --- the compositor's pipe and picture: 2 x 2 blocks of words of a few bits, and memories that return any value when
+# they read the word being written
 package_file="$work/compositor_pkg.sv"
 package STATE_BITS=3 TRANS_BITS=3 SHEET_BITS=2 TRANS_FRAC=2 PIXEL_BITS=2 SIDE_BITS=4 ADDR_BITS=2 BLOCKS_X=2 BLOCKS_Y=2 BLOCKS=4 BLK_BITS=1 >"$package_file"
 probes=""

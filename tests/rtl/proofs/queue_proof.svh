@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A queue's contents (docs/microarchitecture.md, "Fetch"), put inside fastsplat_queue by prove_fetch.sh: if no more are in it than its memory holds,
-// what was put in comes out, in order, shown from the second cycle after it was put, or from the cycle after the one before it was taken.
+// A queue's contents (docs/microarchitecture.md, "Fetch"), put inside fastsplat_queue by prove_fetch.sh. If it never
+// holds more than its memory, its words come out in order. Each is shown from the second cycle after it was put, or
+// from the cycle after the previous one was taken.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A register slice (M-top-1, M-top-2), put inside fastsplat_slice by prove_fetch.sh: what it takes comes out, in order, offered from the next cycle on
-// and held until it is taken; it takes whenever it holds at most one, but for the first cycle after a reset.
+// A register slice (M-top-1, M-top-2), put inside fastsplat_slice by prove_fetch.sh. Its beats come out in order,
+// offered from the next cycle on and held until taken. It takes a beat whenever it holds at most one, except in the
+// first cycle after a reset.
 logic f_started = 1'b0, f_reset_q;
 always @(posedge clk_i) f_started <= 1'b1;
 always @(posedge clk_i) f_reset_q <= !rst_ni;
 always @* if (!f_started) assume (!rst_ni);
 
-// How many it holds; one that it takes, any, is followed: f_behind_q while another is in front of it.
+// How many it holds; the proof follows one arbitrary beat: f_behind_q while another is in front of it.
 logic [1:0] f_count_q;
 logic f_followed_q, f_behind_q, f_gives;
 (* anyseq *) logic f_follow;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What check makes of any beats whatsoever (docs/microarchitecture.md, "Check"; docs/stream.md, "Rules by number"), written again from
-// the pages and put inside stream_check by prove_control.sh. What comes is garbage, held or not; decode, the rest behind it, enable and
-// soft resets do what they will. Up to the first refusal beats pass in order, each once and as it came; then nothing does, but what is
-// open is closed; and what passes is what decode's proof assumes.
+// Check on arbitrary beats (docs/microarchitecture.md, "Check"; docs/stream.md, "Rules by number"), written again from
+// the pages and put inside stream_check by prove_control.sh. The input is arbitrary, held or not; decode, the units
+// behind it, enable and soft resets are free. Up to the first refusal beats pass in order, once and unchanged. Then
+// none passes, but open sheets and tiles are closed. Passed beats satisfy the stream invariants.
 localparam int CB = fastsplat_pkg::COLOUR_BITS;
 localparam int P = fastsplat_pkg::LANES;
 logic f_started = 1'b0;

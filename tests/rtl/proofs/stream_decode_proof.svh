@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decode makes of a stream (docs/microarchitecture.md, "Stream side"; docs/stream.md), written again from the pages and put
-// inside stream_decode by prove_control.sh: no beat lost, doubled or out of order, each record's time in the register, every
-// window of a splat once, every word of a table where it belongs.
+// Decode on a stream (docs/microarchitecture.md, "Stream side"; docs/stream.md), written again from the pages and put
+// inside stream_decode by prove_control.sh. No beat is lost, doubled or out of order. Each record stays in the register
+// for its time, every window of a splat is issued once, every word of a table goes to its place.
 logic f_started = 1'b0;
 always @(posedge clk_i) f_started <= 1'b1;
 always @* if (!f_started) assume (!rst_ni);

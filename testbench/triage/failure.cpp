@@ -85,7 +85,8 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   };
   report.original = first_divergence(failed, options.config);
   report.document = shrink(start(source, options.config, failed, fails), fails, most_runs, report.shrink);
-  // As a file it has to cover its image. The device knows no image, so it fails alike; if not, it stays as it is.
+  // A file has to cover its image. The device has no image, so it fails in the same way; if not, the stream stays as it
+  // is.
   if (StreamDocument whole = arranged(report.document); fails(whole)) report.document = std::move(whole);
 
   const auto beats = write_document(options.config, report.document);

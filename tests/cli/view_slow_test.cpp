@@ -53,7 +53,7 @@ TEST(ViewFlags, AreKeptBySavedScenesAndRefusedInOneLine) {
     expect_error(fastsplat(words), 2, said);
   };
   refused({"--crop", "0..12,0..5,2..9"}, {"exceeds the volume", "0..11,0..11,0..11"});
-  // In a file it is an error of the file.
+  // In a scene file the same value is an error of the file.
   write_text_file(folder / "s.toml", "volume = \"shells:12\"\ncrop = \"0..12,0..5,2..9\"\n");
   expect_error(fastsplat({"render", "--scene", folder / "s.toml", "-o", folder / "x.exr"}), 3,
                {"s.toml:2:8: crop: the box exceeds the volume"});

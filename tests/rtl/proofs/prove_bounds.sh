@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# prove_bounds.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: what slab opacity and compositing make of any word stays within its bounds
-# (NAME_proof.svh), in every mode and for ever, by induction, with Yosys and z3; planted faults are noticed. Leaves
-# WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
+# prove_bounds.sh EMIT_PACKAGE SOURCE_DIR WORK_DIR: the outputs of slab opacity and compositing stay within their bounds
+# for any words (NAME_proof.svh), in every mode and for ever. Proved by induction, with Yosys and z3; planted faults are
+# noticed. Leaves WORK_DIR/proofs.txt: PROPERTY | HOW | SECONDS | FAULTS REFUTED, one a line.
 set -eu
 emit=$1 source=$2 work=$3
 . "$source/tests/rtl/proofs/common.sh"

@@ -119,11 +119,11 @@ TEST(Ranges, OfAFrameSaturateAsOftenAsTheDeviceCounts) {
         ASSERT_EQ(ranges.counters, rendered.counters) << config.name;
         EXPECT_EQ(ranges.report.vanished_voxels, rendered.report.vanished_voxels);
         EXPECT_EQ(ranges.report.splat_records, rendered.report.splat_records);
-        cmodel::Counters counted;
+        cmodel::Counters sums;
         for (std::size_t i = 0; i < cmodel::kSiteCount; ++i) {
           const std::uint64_t overflow = ranges.ranges.at(static_cast<Site>(i)).overflow;
           if (const auto counts = cmodel::kSiteFacts[i].counts) {
-            counted.*counts += overflow;
+            sums.*counts += overflow;
           } else {
             EXPECT_EQ(overflow, 0u) << cmodel::kSiteFacts[i].name;
           }
@@ -131,7 +131,7 @@ TEST(Ranges, OfAFrameSaturateAsOftenAsTheDeviceCounts) {
         }
         for (const auto& facts : cmodel::kSiteFacts) {
           if (facts.counts == nullptr) continue;
-          EXPECT_EQ(counted.*facts.counts, rendered.counters.*facts.counts) << config.name << ", " << facts.name;
+          EXPECT_EQ(sums.*facts.counts, rendered.counters.*facts.counts) << config.name << ", " << facts.name;
           ++counted;
         }
         ++frames;

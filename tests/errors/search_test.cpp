@@ -40,19 +40,19 @@ struct Noises {
 double price(const Config& config) { return cost(config).total(); }
 
 /// Independent of the search: every knob one step down, evaluated again.
-int lowerable(const Config& best, const Judge& judge) {
+int lowerable(const Config& best, const Evaluate& evaluate) {
   int count = 0;
   for (std::size_t k = 0; k < freeze_knob(); ++k) {
     Steps lower(knobs().size(), 0);
     lower[k] = -1;
     const auto config = turned(best, lower);
-    count += config && price(*config) <= price(best) && judge(*config).meets ? 1 : 0;
+    count += config && price(*config) <= price(best) && evaluate(*config).meets ? 1 : 0;
   }
   return count;
 }
 
 /// The same for pairs: one knob down by one or two steps, another up by one, cheaper and good enough.
-int exchangeable(const Config& best, const Judge& judge, int& tried) {
+int exchangeable(const Config& best, const Evaluate& evaluate, int& tried) {
   int count = 0;
   for (std::size_t down = 0; down < freeze_knob(); ++down) {
     for (std::size_t up = 0; up < freeze_knob(); ++up) {
@@ -63,7 +63,7 @@ int exchangeable(const Config& best, const Judge& judge, int& tried) {
         const auto config = turned(best, both);
         if (!config || price(*config) >= price(best)) continue;
         ++tried;
-        count += judge(*config).meets ? 1 : 0;
+        count += evaluate(*config).meets ? 1 : 0;
       }
     }
   }
@@ -83,8 +83,8 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
     if (!out.met) continue;
     ++met;
     EXPECT_TRUE(noises(out.best).meets);
-    EXPECT_EQ(lowerable(out.best, noises), 0) << "judge " << n;
-    EXPECT_EQ(exchangeable(out.best, noises, pairs), 0) << "judge " << n;
+    EXPECT_EQ(lowerable(out.best, noises), 0) << "formula " << n;
+    EXPECT_EQ(exchangeable(out.best, noises, pairs), 0) << "formula " << n;
     most = std::max(most, out.evaluated);
     if (noises(base).meets) {
       EXPECT_LE(price(out.best), price(base));
@@ -95,7 +95,7 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
     EXPECT_EQ(again.evaluated, out.evaluated);
   }
   std::printf(
-      "[figure] searches that met their target = %d, most configurations judged = %d, dearest = %.3f of base, pairs "
+      "[figure] searches that met their target = %d, most configurations evaluated = %d, dearest = %.3f of base, pairs "
       "tried "
       "on them = %d\n",
       met, most, dearest, pairs);
@@ -114,13 +114,13 @@ TEST(Search, IsNearTheBestOfAllWhereThatCanBeKnown) {
     const std::vector<std::size_t> free{4, 5, 9, 12};  // weights, colours, sheets, compositing
     for (const std::size_t k : free) noises.weights[k] = 1000.0;
     // The others fall off a cliff one step down: they stay.
-    const auto judge = [&](const Config& config) {
+    const auto evaluate = [&](const Config& config) {
       for (std::size_t k = 0; k < freeze_knob(); ++k) {
         if (std::ranges::find(free, k) == free.end() && bits(config, k) < bits(base, k)) return Verdict{false, 100.0};
       }
       return noises(config);
     };
-    const SearchOutcome out = Search(base, judge, price).run();
+    const SearchOutcome out = Search(base, evaluate, price).run();
     ASSERT_TRUE(out.met);
     double best = price(base);
     Steps steps(knobs().size(), 0);
@@ -130,12 +130,12 @@ TEST(Search, IsNearTheBestOfAllWhereThatCanBeKnown) {
           for (int d = -12; d <= 2; ++d) {
             steps[4] = a, steps[5] = b, steps[9] = c, steps[12] = d;
             const auto config = turned(base, steps);
-            if (config && judge(*config).meets) best = std::min(best, price(*config));
+            if (config && evaluate(*config).meets) best = std::min(best, price(*config));
           }
         }
       }
     }
-    std::printf("[figure] allowed error %g: %.4f times the cost of the best of 38,025, %d judged\n", scale,
+    std::printf("[figure] allowed error %g: %.4f times the cost of the best of 38,025, %d evaluated\n", scale,
                 price(out.best) / best, out.evaluated);
     worst = std::max(worst, price(out.best) / best);
   }

@@ -113,14 +113,14 @@ TEST(OutputFormats, JunitHasTheReasonAndTheCommand) {
 TEST(OutputFormats, JunitSaysOfEveryFailingCaseThatItsFaultWasPlanted) {
   Result planted = kind("verify");
   planted.json["planted_fault"] = {{"name", "PORT_SNAP"}, {"where", "ports"}, {"meaning", "centres"}};
-  std::size_t failing = 0, planted = 0;
+  std::size_t failing = 0, named = 0;
   for (const Gate& gate : gates_of(planted)) {
     failing += gate.status == Status::Pass ? 0 : 1;
-    planted += gate.message.starts_with("planted fault PORT_SNAP (centres): ") ? 1 : 0;
+    named += gate.message.starts_with("planted fault PORT_SNAP (centres): ") ? 1 : 0;
   }
-  std::printf("[figure] failing cases = %zu, named as planted = %zu (expected 3)\n", failing, planted);
+  std::printf("[figure] failing cases = %zu, named as planted = %zu (expected 3)\n", failing, named);
   EXPECT_EQ(failing, 3u);
-  EXPECT_EQ(planted, failing);
+  EXPECT_EQ(named, failing);
 }
 
 TEST(OutputFormats, JunitIsWhatBuildServersRead) {

@@ -153,15 +153,7 @@ void require_content(const plan::Plan& plan, const std::string& plan_file) {
 }
 
 std::string program_hash() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  std::uint64_t hash = fnv1a(kFnv1aStart, read_text_file("/proc/self/exe", kMostBytes));
-  for (const char* folder : {".", "../lib/fastsplat"}) {
-    const fs::path module = program.parent_path() / folder / "fastsplat_openimageio.so";
-    if (!is_file(module)) continue;
-    hash = fnv1a(hash, read_text_file(module, kMostBytes));
-    break;
-  }
-  return hash_text(hash);
+  return hash_text(fnv1a(kFnv1aStart, read_text_file("/proc/self/exe", kMostBytes)));
 }
 
 }  // namespace fastsplat::cli

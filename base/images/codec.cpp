@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWhat = "cannot read or write pictures: the image library's module ";
+constexpr const char* kWhat = "cannot read or write TIFF and JPEG: the image library's module ";
 
 [[noreturn]] void refuse(const fs::path& where, const std::string& what, std::string expected, std::string got,
                          std::string fix) {
@@ -33,7 +33,7 @@ fs::path find_module() {
     if (!unreadable && fs::exists(place, ignored)) return place;
   }
   refuse(places[0], "is missing", "this file or " + places[1].string(), unreadable ? unreadable.message() : "",
-         "run `./run build`, or copy the module together with the program");
+         "run `./run build`, copy the module together with the program, or choose .png or .exr");
 }
 
 /// libtiff prints its errors to stderr; our message reports them already. OpenImageIO 2.4 replaces the printing

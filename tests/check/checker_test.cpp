@@ -191,11 +191,7 @@ TEST_P(Checked, EveryBankOfAWindow) {
 }
 
 /// Banks x 4 words: banks inside the tile count, others do not (M-tap-4).
-<<<<<<< HEAD
-void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& check,
-=======
 void each_word(const Truth& right, std::size_t at, int bits, const std::function<void(const Truth&)>& visit,
->>>>>>> dce9a397ecc82665214b0328ec9adbcacac80e89
                int& outside) {
   const auto banks = static_cast<std::size_t>(right.config.lanes) * static_cast<std::size_t>(right.config.lanes);
   const auto width = static_cast<std::size_t>(bits);
@@ -206,11 +202,7 @@ void each_word(const Truth& right, std::size_t at, int bits, const std::function
     const std::size_t bit = word * width + word % width;
     const Truth other = with(right, at, [&](RawEvent& event) { event.words[bit / 32] ^= 1U << bit % 32; });
     if (!ones) {
-<<<<<<< HEAD
-      check(other);
-=======
       visit(other);
->>>>>>> dce9a397ecc82665214b0328ec9adbcacac80e89
     } else if (check(other).mismatches == 0) {
       ++outside;
     }

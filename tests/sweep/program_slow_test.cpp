@@ -181,13 +181,11 @@ TEST_F(PlanDisturbed, ByResultsThatAreEmptyOrCut) {
   expect_mended(results);
 }
 
-TEST_F(PlanDisturbed, ByAModuleThatIsMissing) {
-  // The program without its module: pictures can be neither read nor written.
+TEST_F(PlanDisturbed, NotByAMissingModule) {
+  // The program without the module of OpenImageIO, copied away from it: a plan's pictures are EXR.
   fs::copy(program(), folder_ / "fastsplat");
-  const auto run = run_words({folder_ / "fastsplat", "plan", "run", plan_, "--results", folder_ / "bare"});
-  EXPECT_EQ(run.code, 3) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("the image library's module is missing"));
-  EXPECT_EQ(results_in(folder_ / "bare"), 0u);
+  expect_success(run_words({folder_ / "fastsplat", "plan", "run", plan_, "--results", folder_ / "bare"}));
+  EXPECT_EQ(results_in(folder_ / "bare"), 6u);
 }
 
 /// A foreign plan, with its hashes recomputed, runs nothing that plan make does not write.

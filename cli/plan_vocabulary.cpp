@@ -101,7 +101,7 @@ std::string config_hash(const plan::Settings& settings) {
     const std::string text = plan::to_text(value);
     if (plan::is_key(name)) flags.changes.push_back(name + "=" + text);
     if (name == "config") flags.config = text;
-    if (name == "index") flags.changes.push_back("index.kind=" + text);
+    if (name == "index") flags.changes.push_back("--index " + text);
   }
   return hash_text(cmodel::config_hash(load(flags)));
 }

@@ -168,8 +168,10 @@ class Decoder {
   std::string encoding() const {
     if (spec_.find_attribute("ICCProfile") != nullptr)
       return profile_encoding(spec_.get_string_attribute("ICCProfile:profile_description", "unnamed"));
+    if (const auto id = spec_.get_string_attribute("colorInteropID"); !id.empty()) return interop_encoding(id);
     const auto* declared = spec_.find_attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8));
-    if (declared == nullptr) return {};
+    if (declared == nullptr)
+      return spec_.get_int_attribute("acesImageContainerFlag") == 1 ? with_primaries(kLinear, kAcesPrimaries) : "";
     Primaries primaries{};
     std::copy_n(static_cast<const float*>(declared->data()), primaries.size(), primaries.begin());
     return with_primaries(kLinear, primaries);

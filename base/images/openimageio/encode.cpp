@@ -2,9 +2,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <utility>
 
+#include "base/images/encoding.hpp"
 #include "base/images/openimageio/attributes.hpp"
 #include "base/images/openimageio/operations.hpp"
 
@@ -43,6 +46,11 @@ std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes) {
     spec.attribute("DateTime", "");  // else OpenImageIO writes the current time, and equal pictures differ
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", picture.srgb ? "sRGB" : "Linear");
+    if (picture.format == "openexr") {
+      std::array<float, kSrgbPrimaries.size()> primaries{};
+      std::copy(kSrgbPrimaries.begin(), kSrgbPrimaries.end(), primaries.begin());
+      spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), primaries.data());
+    }
     // PNG defines alpha as unassociated, so OpenImageIO would divide by it. TIFF's tag rightly says associated.
     if (picture.format == "png") spec.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOVecOutput memory(bytes);

@@ -10,11 +10,13 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/machine_error.hpp"
 #include "base/suggest.hpp"
 #include "base/version.hpp"
 #include "cli/command_text.hpp"
 #include "cli/help/exit_codes.hpp"
 #include "cli/output.hpp"
+#include "cli/typed_names.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -230,7 +232,13 @@ Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& s
     misused(name, error.what());
   }
   if (this_command().empty()) remember_command(words);  // a plan parses other commands later
-  return action;
+  return [action, words] {
+    try {
+      return action();
+    } catch (const UserError& error) {
+      throw_again(error, as_typed(error.parts(), words), error.code());
+    }
+  };
 }
 
 std::string help_on(const std::vector<std::string>& words, const std::vector<Subcommand>& subcommands) {

@@ -34,8 +34,8 @@ void declare_changes(Options& options, std::vector<std::string>& to) {
                 "change a key of the configuration, for example radial.entries=256; repeatable");
   options.values(key_words);
   options.value(
-      "--index", {}, [&to](const std::string& kind) { to.push_back("index.kind=" + kind); }, "KIND",
-      "index method that finds weights: short for --set index.kind=KIND");
+      "--index", Options::one_of(index_kinds()), [&to](const std::string& kind) { to.push_back("--index " + kind); },
+      "KIND", "index method that finds weights: short for --set index.kind=KIND");
   options.values(index_kinds);
 }
 

@@ -13,7 +13,7 @@ namespace fastsplat::cli {
 
 struct ConfigFlags {
   std::optional<std::string> config;  ///< a name or a file; absent: base
-  std::vector<std::string> changes;   ///< "radial.entries=256"; --index KIND adds "index.kind=KIND"
+  std::vector<std::string> changes;   ///< "radial.entries=256", "--index rlut"
 };
 
 /// `help`: help text of --config.

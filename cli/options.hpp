@@ -59,6 +59,8 @@ class Options {
     value(
         name, finite(), [&to](const std::string& text) { to = *number_from(text); }, unit, help);
   }
+  /// The check of `choice`.
+  static Problem one_of(const std::vector<std::string>& names);
   /// A value with its own check and conversion.
   void value(const char* name, Problem problem, Take take, const char* unit, const char* help);
 
@@ -95,7 +97,6 @@ class Options {
   template <class T>
   using Held = typename Target<T>::Value;
 
-  static Problem one_of(const std::vector<std::string>& names);
   static Problem within(long low, long high);
   static Problem finite();
   void describe(const char* name, const char* unit, const char* help, bool required, bool repeatable);

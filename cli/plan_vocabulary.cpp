@@ -14,6 +14,7 @@
 #include "cli/command_line.hpp"
 #include "cli/config_flags.hpp"
 #include "cli/output_names.hpp"
+#include "driver/config/changed.hpp"
 #include "scene/scene_file.hpp"
 
 namespace fastsplat::cli {
@@ -101,9 +102,12 @@ std::string config_hash(const plan::Settings& settings) {
     const std::string text = plan::to_text(value);
     if (plan::is_key(name)) flags.changes.push_back(name + "=" + text);
     if (name == "config") flags.config = text;
-    if (name == "index") flags.changes.push_back("index.kind=" + text);
+    if (name == "index") flags.changes.push_back("--index " + text);
   }
-  return hash_text(cmodel::config_hash(load(flags)));
+  static std::map<std::string, cmodel::Config> known;  // each file is read once
+  const std::string name = flags.config.value_or("base");
+  if (!known.contains(name)) known[name] = load(name, {});
+  return hash_text(cmodel::config_hash(driver::changed(known.at(name), flags.changes)));
 }
 
 plan::Content content_of(const plan::Settings& settings, const std::vector<std::string>& subcommands) {
@@ -125,6 +129,15 @@ plan::Content content_of(const plan::Settings& settings, const std::vector<std::
   return content;
 }
 
+/// The subcommand that a case names, with those of its group: building all of them is most of the time of a case.
+std::vector<Subcommand> named_by(const plan::Words& words) {
+  std::vector<Subcommand> some;
+  std::ranges::copy_if(all_subcommands(), std::back_inserter(some), [&](const Subcommand& one) {
+    return words.front() == one.name || std::string_view(one.name).starts_with(words.front() + " ");
+  });
+  return some;
+}
+
 std::vector<std::string> subcommands_of(const plan::Case& one) {
   std::vector<std::string> subcommands;
   for (const auto& step : one.steps) subcommands.push_back(step.result.empty() ? step.words.front() : step.result);
@@ -135,7 +148,7 @@ std::vector<std::string> subcommands_of(const plan::Case& one) {
 
 plan::Vocabulary plan_vocabulary() {
   return {.flags_of = [](const std::string& subcommand) { return known_flags(subcommand); },
-          .check = [](const plan::Words& words) { parse_words(words, all_subcommands()); },
+          .check = [](const plan::Words& words) { parse_words(words, named_by(words)); },
           .content = content_of};
 }
 

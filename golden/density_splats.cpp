@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "golden/sheet_geometry.hpp"
+#include "scene/ripple.hpp"
 
 namespace fastsplat::golden {
 namespace {
@@ -88,18 +88,6 @@ glm::dvec3 reach_across(const volume::Volume& volume) {
 
 }  // namespace
 
-double ripple_bound(const scene::Kernel& kernel, double tilt) {
-  const double shear = std::sqrt(1.0 + 0.25 * tilt * tilt) - 0.5 * tilt;
-  double theta = 1.0;
-  for (int n = 1; n < 64; ++n) {
-    const double frequency = std::numbers::pi * n * shear;
-    theta += 2.0 * std::exp(-frequency * frequency / kernel.a());
-  }
-  const double r2 = kernel.radius() * kernel.radius();
-  const double inside = -std::expm1(-kernel.a() * r2) * std::erf(std::sqrt(kernel.a()) * kernel.radius());
-  return theta * theta * theta / inside - 1.0;
-}
-
 DensityField collect_densities(const scene::Scene& scene, bool skip) {
   const volume::Volume& volume = *scene.volume;
   const SheetGeometry geometry(scene);
@@ -111,7 +99,7 @@ DensityField collect_densities(const scene::Scene& scene, bool skip) {
   skip = skip && footprint.shape == scene::FootprintShape::Circle && !footprint.antialias &&
          !(footprint.texture.amplitude > 0.0);
   const BrickMaxima maxima(volume, skip ? reach : glm::ivec3(0));
-  const double most = 1.0 + ripple_bound(scene.kernel, largest_tilt(geometry));
+  const double most = 1.0 + scene::ripple_bound(scene.kernel, largest_tilt(geometry));
 
   DensityField field;
   field.base = volume.min;

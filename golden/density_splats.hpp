@@ -23,9 +23,4 @@ struct DensityField {
 /// base], where the transfer function is transparent. Skipping clear bricks changes no bit. `skip` = false keeps them.
 DensityField collect_densities(const scene::Scene& scene, bool skip = true);
 
-/// Relative bound on how far the sum of kernels on a unit lattice can exceed its mean, along a ray tilted by `tilt`
-/// (tangent) against the view axis. It is theta^3 / (share of the Gaussian inside the support) - 1. Here theta = sum
-/// over n of exp(-(pi n s)^2 / a), and s is the smallest singular value of the shear.
-double ripple_bound(const scene::Kernel& kernel, double tilt);
-
 }  // namespace fastsplat::golden

@@ -180,4 +180,16 @@ Json without_folders(const Json& data) {
   });
 }
 
+std::vector<Result> without_folders(const std::vector<Result>& results) {
+  Json all = Json::array();
+  for (const Result& result : results) all.push_back({{"file", result.file.string()}, {"json", result.json}});
+  Json cut = without_folders(all);
+  std::vector<Result> out = results;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].shown = cut[i]["file"].get<std::string>();
+    out[i].json = std::move(cut[i]["json"]);
+  }
+  return out;
+}
+
 }  // namespace fastsplat::report

@@ -11,4 +11,7 @@ namespace fastsplat::report {
 /// of the same name, "folder-2/" and so on distinguish them, in order of first appearance.
 Json without_folders(const Json& data);
 
+/// The same of all results together, and of the names of their files. `file` stays, for messages on the terminal.
+std::vector<Result> without_folders(const std::vector<Result>& results);
+
 }  // namespace fastsplat::report

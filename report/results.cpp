@@ -96,6 +96,8 @@ Verdict verdict_of(const std::vector<Verdict>& all) {
                            [&](const Verdict& a, const Verdict& b) { return severity(a) < severity(b); });
 }
 
+std::string name_of(const Result& result) { return result.shown.empty() ? result.file.string() : result.shown; }
+
 std::string command_of(const Result& result) {
   const auto found = result.json.find("command");
   return found != result.json.end() && found->is_string() ? found->get<std::string>() : std::string{};

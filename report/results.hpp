@@ -15,6 +15,7 @@ struct Result {
   std::filesystem::path file;  ///< as the user named it
   std::string subcommand;      ///< "compare", "errors bound"
   Json json;                   ///< the complete object
+  std::string shown = {};      ///< its name in a report, without folders; empty: `file`
 };
 
 /// Reads a --json result. UserError (Input), in one line that names the file, if it is missing, truncated, not JSON,
@@ -44,6 +45,9 @@ Verdict verdict_of(const Result& result);
 /// The overall verdict: the worst status (Error, Fail, Pass, Measured) and the sentence of the first result that has
 /// it. `verdicts` must not be empty.
 Verdict verdict_of(const std::vector<Verdict>& verdicts);
+
+/// The name of a result in a report.
+std::string name_of(const Result& result);
 
 /// The command that reproduces a result; empty if it is not recorded.
 std::string command_of(const Result& result);

@@ -35,8 +35,9 @@ Turn turn(double degrees) {
   }
 }
 
-[[noreturn]] void bad(const std::string& what, const std::string& expected, double got, const std::string& fix) {
-  throw_usage({.where = "camera", .what = what, .expected = expected, .got = fmt::format("{}", got), .fix = fix});
+[[noreturn]] void bad(const std::string& what, const std::string& expected, double got, const std::string& fix,
+                      const char* where = "camera") {
+  throw_usage({.where = where, .what = what, .expected = expected, .got = fmt::format("{}", got), .fix = fix});
 }
 
 void check_angle(const char* name, double degrees) {
@@ -84,7 +85,7 @@ Camera::Camera(const CameraParams& params, double radius, int width, int height)
   if (eye_distance_ <= radius) {
     bad("the eye is inside the volume's bounding sphere",
         fmt::format("zoom < {:.3g} at this field of view", 1.0 / std::sin(half_fov)), params.zoom,
-        "lower the zoom, or the field of view together with it");
+        "lower the zoom, or the field of view together with it", "camera.zoom");
   }
   scale_ = half_side / std::tan(half_fov) / eye_distance_;
 }

@@ -25,7 +25,7 @@ std::optional<ErrorParts> contradiction(const TechniqueRow& row, const SceneDesc
     for (const Link& link : wanted ? row.needs : row.excludes) {
       const TechniqueRow& other = row_of(link.other);
       if (other.on(description) == wanted) continue;
-      return parts(row.key, filled(link.why, other.key), link.fix ? link.fix : other.turn_on);
+      return parts(row.key, filled(link.why, other.name), link.fix ? link.fix : other.turn_on);
     }
   }
   return std::nullopt;
@@ -59,7 +59,7 @@ std::optional<ErrorParts> refusal(const SceneDescription& description, const Off
   }
   if (offers.methods & only(description.method)) return std::nullopt;
   const char* method = to_string(description.method);
-  return ErrorParts{.where = "--method",
+  return ErrorParts{.where = "method",
                     .what = fmt::format("the {} does not support method '{}'", offers.engine, method),
                     .expected = listed(offers.methods),
                     .got = method,

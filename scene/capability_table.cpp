@@ -46,7 +46,7 @@ constexpr Link kBumpNeeds[] = {{Technique::PostClassified, "needs a normal in ev
 
 constexpr Link kCullingNeeds[] = {{Technique::Freezing, "no pixel becomes opaque while culling.freeze is 0"}};
 
-constexpr const char* kUnknownReach = "culling in blocks does not support footprints shaped by {}";
+constexpr const char* kUnknownReach = "culling in blocks does not support {}";
 constexpr Link kBlocksExcludes[] = {
     {Technique::Ellipse, kUnknownReach, "use --culling splats"},
     {Technique::Antialias, kUnknownReach, "use --culling splats"},

@@ -10,6 +10,7 @@
 #include "base/machine_error.hpp"
 #include "scene/capability.hpp"
 #include "scene/content_fit.hpp"
+#include "scene/ripple.hpp"
 #include "scene/settings.hpp"
 #include "scene/volume/volume_file.hpp"
 #include "scene/xray_exposure.hpp"
@@ -45,6 +46,28 @@ auto named_at(const std::string& place, const Load& load) {
 Kernel make_kernel(const SceneDescription& description) {
   return description.kernel.empty() ? Kernel(description.kernel_a, description.kernel_radius)
                                     : kernel_by_name(description.kernel);
+}
+
+/// What magnified voxels show of the method of a picture that is classified by pixel; empty if they are too small.
+std::string terraces(const Scene& scene) {
+  constexpr double kPixels = 2.0, kRipple = 0.02;
+  const SceneDescription& description = scene.description;
+  if (description.method != Method::ImageAligned || description.classify != ClassifyOrder::Post) return {};
+  const double voxel = scene.camera.project(glm::dvec3(0.0)).scale * scene.volume->kernel_unit();  // pixels
+  const double ripple = ripple_bound(scene.kernel, 0.0);
+  const bool rings = description.slab_width * voxel >= kPixels;
+  const bool stripes = voxel >= kPixels && ripple > kRipple && scene.shading.on;
+  std::string shown, fix;
+  if (rings) {
+    shown = fmt::format("slabs are {:.2g} pixels thick and show as rings on surfaces", description.slab_width * voxel);
+    fix = fmt::format("--slab-width {:.2g}", 1.0 / voxel);
+  }
+  if (stripes) {
+    shown += fmt::format("{}the kernel ripples by up to {:.2g} % and shows the grid in the shading",
+                         rings ? ", and " : "", 100.0 * ripple);
+    fix += std::string(rings ? " and " : "") + "--kernel smooth";
+  }
+  return shown.empty() ? shown : "classified by pixel: " + shown + "; use " + fix;
 }
 
 }  // namespace
@@ -96,6 +119,7 @@ Scene build_scene(const SceneDescription& description, std::shared_ptr<const vol
               .remarks = std::move(remarks)};
   if (description.camera.fit == Fit::Content) scene.camera = fitted_to_content(scene, description.camera.zoom);
   check_capability(scene, kOffersAll);  // now that shading is known
+  if (auto remark = terraces(scene); !remark.empty()) scene.remarks.push_back(std::move(remark));
   return scene;
 }
 

@@ -59,7 +59,7 @@ double between(const std::vector<double>& keys, std::int64_t step, std::int64_t 
 
 Sequence orbit(double from, double to, int frames) {
   if (from == to) {
-    throw_usage({.where = "orbit",
+    throw_usage({.where = "--orbit",
                  .what = "start and end are the same angle",
                  .expected = "two different angles",
                  .got = fmt::format("{}..{}", from, to),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "scene/volume/hounsfield.hpp"
 
@@ -35,6 +36,14 @@ std::vector<float> faces_of(const volume::Volume& volume) {
   return values;
 }
 
+/// Median, and the deviation of a normal distribution with the same median of absolute differences.
+std::pair<double, double> level_of(std::vector<float> values) {
+  constexpr double kDeviationPerMedian = 1.4826;
+  const float median = nth(values, values.size() / 2);
+  for (float& value : values) value = std::abs(value - median);
+  return {median, kDeviationPerMedian * nth(values, values.size() / 2)};
+}
+
 /// The greatest value of air in a CT.
 std::optional<double> air_value(const volume::Volume& volume) {
   if (!volume.water) return std::nullopt;
@@ -45,16 +54,16 @@ std::optional<double> air_value(const volume::Volume& volume) {
 
 double background_top(const volume::Volume& volume) {
   constexpr double kDeviations = 6.0, kOneLevel = 0.03, kDarker = 0.05;
-  constexpr double kDeviationPerMedian = 1.4826;  // of a normal distribution
   if (const auto air = air_value(volume)) return *air;
   auto faces = faces_of(volume);
-  const float median = nth(faces, faces.size() / 2);
-  for (float& value : faces) value = std::abs(value - median);
-  const double deviation = kDeviationPerMedian * nth(faces, faces.size() / 2);
+  auto [median, deviation] = level_of(faces);
+  // The least value far below that level is padding, as in the corners of a round field of view.
+  const bool padded = median - kDeviations * deviation > volume.min && std::erase(faces, volume.min) > 0;
+  if (padded) std::tie(median, deviation) = level_of(faces);
   if (!(deviation <= kOneLevel * (static_cast<double>(volume.max) - volume.min))) return volume.min;
   const double bottom = median - kDeviations * deviation;
-  const auto darker =
-      std::count_if(volume.voxels.begin(), volume.voxels.end(), [bottom](float v) { return v < bottom; });
+  const auto darker = std::count_if(volume.voxels.begin(), volume.voxels.end(),
+                                    [&](float v) { return v < bottom && !(padded && v == volume.min); });
   const bool lowest = static_cast<double>(darker) <= kDarker * static_cast<double>(volume.voxels.size());
   return lowest ? median + kDeviations * deviation : volume.min;
 }

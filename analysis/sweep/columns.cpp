@@ -20,10 +20,15 @@ constexpr const char* kFixed[] = {"id",          "kind",       "status",       "
 
 bool is_fixed_column(const std::string& name) { return std::ranges::find(kFixed, name) != std::end(kFixed); }
 
+std::string fixed_column(const Merged& merged, const std::string& name) {
+  return std::ranges::find(merged.axes, name, &Axis::name) == merged.axes.end() ? name : "case." + name;
+}
+
 namespace {
 
 std::vector<std::string> known_columns(const Merged& merged) {
-  std::vector<std::string> names(std::begin(kFixed), std::end(kFixed));
+  std::vector<std::string> names;
+  for (const char* name : kFixed) names.push_back(fixed_column(merged, name));
   for (const Axis& axis : merged.axes) names.push_back(axis.name);
   for (const Metric& metric : merged.metrics) names.push_back(metric.name);
   return names;
@@ -69,11 +74,12 @@ std::vector<std::string> usual_columns(const Merged& merged, const std::vector<c
   for (const Axis& axis : merged.axes) {
     if (rows.empty() || varies(axis.name)) out.push_back(axis.name);
   }
-  if (std::ranges::any_of(rows, [](const Row* row) { return row->status != Status::Pass; })) out.push_back("status");
+  if (std::ranges::any_of(rows, [](const Row* row) { return row->status != Status::Pass; }))
+    out.push_back(fixed_column(merged, "status"));
   for (const Metric& metric : merged.metrics) {
     if (rows.size() < 2 || varies(metric.name)) out.push_back(metric.name);
   }
-  out.push_back("config_hash");
+  out.push_back(fixed_column(merged, "config_hash"));
   return out;
 }
 
@@ -115,7 +121,9 @@ std::string left_out_text(const Table& table) {
 }  // namespace
 
 Cell cell_of(const Merged& merged, const Row& row, const std::string& column) {
-  if (is_fixed_column(column)) return {fixed(row, column), {}};
+  for (const char* name : kFixed) {
+    if (column == fixed_column(merged, name)) return {fixed(row, name), {}};
+  }
   if (const auto axis = std::ranges::find(row.axes, column, &Setting::name); axis != row.axes.end())
     return std::visit(ValueCell{}, axis->value);
   if (const auto number = row.metric(column)) return number_cell(*number);

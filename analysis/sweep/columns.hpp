@@ -20,6 +20,8 @@ struct TableOptions {
 
 /// Whether every table has a column of this name beside those of the axes and metrics.
 bool is_fixed_column(const std::string& name);
+/// Where the fixed column `name` is found: an axis of that name takes it, and the fixed column is then "case.NAME".
+std::string fixed_column(const Merged& merged, const std::string& name);
 
 /// A cell: its full text, and its number if it is one.
 struct Cell {

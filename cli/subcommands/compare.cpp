@@ -177,7 +177,7 @@ struct CompareResult {
   bool hidden = false;    ///< the worst error is a colour where alpha is 0 in both
 };
 
-std::vector<Remark> remarks(const CompareResult& result) {
+std::vector<Remark> remarks_of(const CompareResult& result) {
   std::vector<Remark> out;
   if (!result.all_black.empty()) {
     out.push_back({Remark::Warning, result.all_black + " is all black, the other is not: the figures are meaningless"});
@@ -242,7 +242,7 @@ ExitCode run(const CompareArguments& arguments) {
                         {.display = true});
   }
   output.line(analysis::to_text(result.report));
-  output.remark(remarks(result));
+  output.remark(remarks_of(result));
   output.json(to_json(result));
   return result.report.pass ? ExitCode::Pass : ExitCode::Failed;
 }

@@ -2,6 +2,7 @@
 // fastsplat family: cost and error of every index kind.
 #include <fmt/format.h>
 
+#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "analysis/index_kinds/family_text.hpp"
@@ -64,6 +65,13 @@ Json to_json(const std::vector<analysis::FamilyCell>& cells) {
 
 /// --head covers all kinds and prints text, so it accepts neither --kind, --entries nor --json.
 void check(const FamilyArguments& arguments) {
+  if (arguments.entries && !std::has_single_bit(static_cast<unsigned>(*arguments.entries))) {
+    throw_usage({.where = "--entries",
+                 .what = "is not a power of two",
+                 .expected = "a power of two",
+                 .got = std::to_string(*arguments.entries),
+                 .fix = "for example --entries 256"});
+  }
   if (!arguments.head || (arguments.kind.empty() && !arguments.entries && arguments.common.json.empty())) return;
   throw_usage({.where = "--head",
                .what = "covers all kinds and prints text only",
@@ -101,8 +109,7 @@ ExitCode run(const FamilyArguments& arguments) {
 
 void declare(Options& options, FamilyArguments& to) {
   options.group("What");
-  options.word("--kind", to.kind, "KIND", "one kind of index only, a value of index.kind");
-  options.values(index_kinds);
+  options.choice("--kind", to.kind, index_kinds(), "KIND", "one kind of index only, a value of index.kind");
   options.integer("--entries", to.entries, 2, 65536, "N",
                   "entries of the radial table, a power of two (default 64 to 2048)");
   options.flag("--head", to.head, "compare every kind's picture of the head scan with golden's instead; takes minutes");

@@ -25,10 +25,11 @@ struct PlanCsvArguments {
 plan::TableOptions options_from(const PlanCsvArguments& arguments, const plan::Merged& merged) {
   auto options = arguments.rows.options();
   if (!options.columns.empty()) return options;
-  options.columns = {"id", "kind", "status", "message"};
+  const auto fixed = [&](const char* name) { options.columns.push_back(plan::fixed_column(merged, name)); };
+  for (const char* first : {"id", "kind", "status", "message"}) fixed(first);
   for (const auto& axis : merged.axes) options.columns.push_back(axis.name);
   for (const auto& metric : merged.metrics) options.columns.push_back(metric.name);
-  for (const char* last : {"config_hash", "scene_hash", "program_hash", "command"}) options.columns.emplace_back(last);
+  for (const char* last : {"config_hash", "scene_hash", "program_hash", "command"}) fixed(last);
   return options;
 }
 

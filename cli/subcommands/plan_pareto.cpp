@@ -47,7 +47,7 @@ plan::Table table_of(const PlanParetoResult& result, const std::vector<const pla
       if (std::ranges::find(usual, axis.name) != usual.end()) own.columns.push_back(axis.name);
     }
     for (const auto& name : {result.pareto.x.name, result.pareto.y.name}) own.columns.push_back(name);
-    own.columns.emplace_back("config_hash");
+    own.columns.push_back(plan::fixed_column(result.merged, "config_hash"));
   }
   auto table = plan::table_of(some, own);
   table.columns.emplace_back(title);

@@ -16,6 +16,7 @@
 #include "cli/scene_flags.hpp"
 #include "cli/subcommands/subcommands.hpp"
 #include "cli/volume_json.hpp"
+#include "driver/config/changed.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -33,9 +34,8 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .fix = "add --out FILE.exr or --out FILE.png"});
   }
   if (engine == Engine::Golden && (arguments.config.config || !arguments.config.changes.empty())) {
-    throw_usage({.where = arguments.config.config                                       ? "--config"
-                          : arguments.config.changes.front().starts_with("index.kind=") ? "--index, or --set"
-                                                                                        : "--set",
+    const auto& changes = arguments.config.changes;
+    throw_usage({.where = arguments.config.config ? "--config" : driver::as_flag(changes.front()),
                  .what = "the golden renderer does not use a hardware configuration",
                  .expected = {},
                  .got = {},

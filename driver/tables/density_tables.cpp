@@ -127,7 +127,7 @@ void check_densities(const scene::Scene& scene) {
   const double base = scene.volume->min;
   if (scene::Classifier(scene.transfer_function, *scene.volume).transparent(base, base)) return;
   throw_usage(
-      {.where = "--classify post",
+      {.where = "classify.order",
        .what =
            "the transfer function shows the volume's smallest value, and a device cannot tell where the volume ends",
        .expected = "opacity 0 at the smallest value",

@@ -3,6 +3,7 @@
 
 #include "base/json_text.hpp"
 #include "base/printable.hpp"
+#include "report/file_names.hpp"
 #include "report/formats/output_format.hpp"
 #include "report/formats/output_formats.hpp"
 
@@ -32,7 +33,8 @@ std::string line(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-std::string to_csv(const std::vector<Result>& results) {
+std::string to_csv(const std::vector<Result>& with_folders) {
+  const auto results = without_folders(with_folders);
   const bool several = results.size() > 1;
   std::vector<std::string> columns;
   if (several) columns = {"result", "verb"};
@@ -50,7 +52,7 @@ std::string to_csv(const std::vector<Result>& results) {
     for (const auto& row : tables[r].rows) {
       std::vector<std::string> fields(columns.size());
       if (several) {
-        fields[0] = results[r].file.string();
+        fields[0] = name_of(results[r]);
         fields[1] = results[r].subcommand;
       }
       for (std::size_t c = 0; c < row.size(); ++c) {

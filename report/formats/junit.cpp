@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "report/file_names.hpp"
 #include "report/formats/output_format.hpp"
 #include "report/formats/output_formats.hpp"
 
@@ -90,8 +91,8 @@ std::string suite(const Result& result, Count& all) {
   }
   all.add(count);
   const std::string command = command_of(result);
-  return fmt::format("  <testsuite name=\"{}\" {}>\n    <properties>\n",
-                     xml(result.subcommand + " " + result.file.string()), count.attributes()) +
+  return fmt::format("  <testsuite name=\"{}\" {}>\n    <properties>\n", xml(result.subcommand + " " + name_of(result)),
+                     count.attributes()) +
          fmt::format("      <property name=\"verdict\" value=\"{}\"/>\n", xml(verdict_of(result).sentence)) +
          (command.empty() ? "" : fmt::format("      <property name=\"command\" value=\"{}\"/>\n", xml(command))) +
          "    </properties>\n" + cases + "  </testsuite>\n";
@@ -99,7 +100,8 @@ std::string suite(const Result& result, Count& all) {
 
 }  // namespace
 
-std::string to_junit(const std::vector<Result>& results) {
+std::string to_junit(const std::vector<Result>& with_folders) {
+  const auto results = without_folders(with_folders);
   Count all;
   std::string suites;
   for (const Result& result : results) reading(result, [&] { suites += suite(result, all); });

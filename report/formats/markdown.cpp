@@ -5,6 +5,7 @@
 
 #include "base/json_text.hpp"
 #include "base/printable.hpp"
+#include "report/file_names.hpp"
 #include "report/formats/output_format.hpp"
 #include "report/formats/output_formats.hpp"
 
@@ -110,14 +111,15 @@ std::string gates_text(const Result& result) {
 std::string section(const Result& result) {
   const Verdict verdict = verdict_of(result);
   const std::string command = command_of(result);
-  return fmt::format("### {} {}: {}\n\n{}\n\n", cell(result.subcommand), code(result.file.string()),
-                     mark(verdict.status), cell(verdict.sentence)) +
+  return fmt::format("### {} {}: {}\n\n{}\n\n", cell(result.subcommand), code(name_of(result)), mark(verdict.status),
+                     cell(verdict.sentence)) +
          (command.empty() ? "" : code(command) + "\n\n") + gates_text(result) + table_text(table_of(result));
 }
 
 }  // namespace
 
-std::string to_markdown(const std::vector<Result>& results) {
+std::string to_markdown(const std::vector<Result>& with_folders) {
+  const auto results = without_folders(with_folders);
   std::string text;
   for (const Result& result : results) reading(result, [&] { text += (text.empty() ? "" : "\n") + section(result); });
   return text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output formats for other tools: JUnit XML for build servers, CSV for spreadsheets, Markdown for reviews.
+// Output formats for other tools: JUnit XML for build servers, CSV for spreadsheets, Markdown for reviews. Like the
+// page they name files without their folders (report/file_names.hpp).
 #pragma once
 
 #include <string>

@@ -143,8 +143,9 @@ TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
   };
   int refused = 0;
   for (const auto& [words, parts] :
-       {Case{{"config", "show", "tiny", "--index", "rlutt"}, {"index.kind=rlutt", "squared_elliptic"}},
-        Case{{"config", "show", "base", "--index", "blit2d"}, {"snap.phases", "16777216", "67108864"}},
+       {Case{{"config", "show", "tiny", "--index", "rlutt"},
+             {"--index: expected", "squared_elliptic", "did you mean 'rlut'"}},
+        Case{{"config", "show", "base", "--index", "blit2d"}, {"--index blit2d: snap.phases", "16777216", "67108864"}},
         Case{{"config", "show", "tiny", "--set", "index.symmetry=eightfold"}, {"blit2d", "got rlut"}},
         Case{{"config", "show", "tiny", "--index", "linear", "--set", "index.kind=squared"}, {"set twice"}},
         Case{with({"cycles", "--index", "squared"}), {"index.kind", "rlut, blit2d or separable", "got squared"}},
@@ -165,6 +166,35 @@ TEST(Index, IsRefusedInOneLineWhereItCannotBe) {
     ++refused;
   }
   std::printf("[figure] refusals read = %d\n", refused);
+}
+
+TEST(TypedNames, AnErrorNamesTheFlagOrKeyThatTheUserGave) {
+  const cli_test::TempFolder folder;
+  const auto file =
+      folder.write("scene.toml", "volume = \"shells:8\"\nmethod = \"xray\"\n[classify]\norder = \"post\"\n");
+  const auto crop = folder.write("crop.toml", "volume = \"shells:8\"\n");
+  int named = 0;
+  for (const auto& [words, begin] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"render", "--volume", "shells:8", "--classify", "post", "--method=xray", "-o", "a.exr"}, "--classify: "},
+           {{"render", "--scene", crop, "--crop", "0..9,0..9,0..9", "-o", "a.exr"}, "--crop: "},
+           {{"render", "--scene", file, "-o", "a.exr"}, "classify.order: "},
+           {{"render", "--volume", "shells:8", "--method", "raycast", "--engine", "cmodel", "-o", "a.exr"},
+            "--method: "},
+           {{"render", "--volume", "shells:8", "--index", "rlut", "-o", "a.exr"}, "--index rlut: "},
+           {{"render", "--volume", "shells:8", "--set", "index.kind=rlut", "-o", "a.exr"}, "--set index.kind=rlut: "},
+           {{"render", "--volume", "shells:8", "--perspective", "--zoom", "9", "-o", "a.exr"}, "--zoom: "},
+           {{"family", "--kind", "rlutt"}, "--kind: "},
+           {{"family", "--entries", "100"}, "--entries: "}}) {
+    std::string line = "accepted";
+    try {
+      said(words);
+    } catch (const UserError& error) {
+      line = error.what();
+    }
+    EXPECT_TRUE(line.starts_with(begin)) << line << "\n  does not begin with " << begin;
+    ++named;
+  }
+  std::printf("[figure] errors that name what was typed = %d\n", named);
 }
 
 TEST(Set, NamesTheConfigurationOfAPicture) {

@@ -266,6 +266,30 @@ TEST(OutputFormats, MarkdownCutsLongTablesAndSaysSo) {
   EXPECT_EQ(count(to_junit({plan}), "<testcase "), 2003u);
 }
 
+// The page's rule; messages on the terminal keep the result's path.
+TEST(OutputFormats, NameFilesWithoutTheirFolders) {
+  std::vector<Result> results(2, kind("compare"));
+  results[0].file = "/home/jane/a/compare.json", results[1].file = "/home/jane/b/compare.json";
+  results[0].json["command"] = "fastsplat compare /home/jane/a/x.exr '/home/jane/b c/y.exr'";
+  results[1].json["command"] = "fastsplat compare ../jane/x.exr /srv/jane/z.exr";
+  std::size_t formats = 0;
+  for (const auto& format : {to_junit, to_csv, to_markdown}) {
+    const std::string text = format(results);
+    EXPECT_FALSE(holds(text, "jane")) << text;
+    EXPECT_TRUE(holds(text, "folder-3/compare.json")) << text;
+    if (format != to_csv) EXPECT_TRUE(holds(text, "fastsplat compare x.exr")) << text;
+    ++formats;
+  }
+  results[0].json["limits"] = Json::array({1});
+  try {
+    to_junit(results);
+    ADD_FAILURE() << "is accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.parts().where, "/home/jane/a/compare.json");
+  }
+  std::printf("[figure] output formats without folders = %zu (limit 3)\n", formats);
+}
+
 // With any part of a result removed or replaced, the outputs are made or one line gives the error.
 TEST(OutputFormats, ADamagedResultIsOneLine) {
   int refused = 0, made = 0;

@@ -12,6 +12,7 @@
 
 #include "density_helper.hpp"
 #include "golden/gradient_splats.hpp"
+#include "scene/ripple.hpp"
 #include "scene/sheet_plan.hpp"
 #include "scenes_helper.hpp"
 
@@ -304,7 +305,7 @@ TEST(PostClassified, TheRippleBoundHolds) {
     } largest;
     sweep_frame(scene, collect_densities(scene, false).splats, {1, {}}, image_slabs(scene),
                 {.sheet_stages = {&largest}});
-    const double bound = ripple_bound(scene.kernel, glm::length(geometry.tilt(0, 0)));
+    const double bound = scene::ripple_bound(scene.kernel, glm::length(geometry.tilt(0, 0)));
     std::printf("a = %g: bound %.4f, ", a, bound);
     figure("ripple_above_the_mean", largest.most / 0.25 - 1.0, "below the bound, above 0");
     EXPECT_LE(largest.most / 0.25 - 1.0, bound);

@@ -182,6 +182,33 @@ TEST_F(Declared, ExrPrimariesAreNamed) {
   EXPECT_THAT(encoding(), HasSubstr("linear with primaries 0.7347 0.33"));
 }
 
+TEST_F(Declared, ExrColourSpacesAreNamed) {
+  const auto encoding = [&](const auto& declare) {
+    write("a.exr", {"R", "G", "B"}, declare);
+    return encoding_of(read_image(folder_ / "a.exr"));
+  };
+  const auto interop = [&](const char* id) {
+    return encoding([&](OIIO::ImageSpec& spec) { spec.attribute("colorInteropID", id); });
+  };
+  EXPECT_EQ(interop("lin_rec709_scene"), "linear");
+  EXPECT_EQ(interop("srgb_rec709_scene"), "sRGB");
+  EXPECT_EQ(interop("g22_rec709_scene"), "colour space 'g22_rec709_scene'");
+  EXPECT_THAT(encoding([](OIIO::ImageSpec& spec) { spec.attribute("acesImageContainerFlag", 1); }),
+              HasSubstr("linear with primaries 0.7347 0.2653"));
+  EXPECT_EQ(encoding([](OIIO::ImageSpec& spec) { spec.attribute("whiteLuminance", 100.0f); }), "linear");
+}
+
+TEST_F(Declared, AnExrOfThisProgramDeclaresItsPrimaries) {
+  Image image(2, 2);
+  write_image(folder_ / "a.exr", image, {}, {.kind = PixelKind::Half});
+  const auto file = OIIO::ImageInput::open((folder_ / "a.exr").string());
+  ASSERT_TRUE(file);
+  const auto* declared = file->spec().find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
+  ASSERT_NE(declared, nullptr);
+  EXPECT_EQ(static_cast<const float*>(declared->data())[0], 0.64f);
+  EXPECT_EQ(encoding_of(read_image(folder_ / "a.exr")), "linear");
+}
+
 TEST_F(Declared, ATurnedImageIsRefused) {
   for (const char* name : {"a.tif", "a.exr", "a.jpg"}) {
     write(name, {"R", "G", "B"}, [](OIIO::ImageSpec& spec) { spec.attribute("Orientation", 6); });

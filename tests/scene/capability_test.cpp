@@ -118,7 +118,7 @@ TEST(Capability, AnEngineRefusesTheFirstThatItHasNot) {
   d.texture = {SolidKind::Wood, TextureWhere::Voxel, 5.0, 1.0};
   EXPECT_EQ(first(), "");
   d.method = Method::XRay;
-  EXPECT_EQ(first(), "--method");
+  EXPECT_EQ(first(), "method");
   d.method = Method::ImageAligned;
   d.culling.freeze = 0.1;
   EXPECT_EQ(first(), "culling.freeze");

@@ -151,6 +151,22 @@ TEST(ValueRange, AirThatIsNotTheLeastValueIsBackground) {
   }
 }
 
+TEST(ValueRange, PaddingBeyondARoundFieldIsBackgroundToo) {
+  // Air of 390 in a cylinder wider than the volume; its corners are 0, as a reconstruction of a round field leaves
+  // them.
+  const auto head = volume::make_volume({32, 32, 32}, glm::dvec3(1), VoxelType::U16, [](int i, int j, int k) {
+    if (std::hypot(i - 15.5, j - 15.5) > 18.5) return 0.0;
+    const bool inside = glm::length(glm::dvec3(i, j, k) - 15.5) < 10;
+    return std::round((inside ? 700.0 : 390.0) + 8.0 * noise(i, j, k));
+  });
+  const auto padding = std::count(head.voxels.begin(), head.voxels.end(), 0.0f);
+  std::printf("[figure] padding = %.1f %% of the voxels (limit > 5 %%), background to %g\n",
+              100.0 * static_cast<double>(padding) / static_cast<double>(head.voxels.size()), background_top(head));
+  EXPECT_GT(padding * 20, static_cast<long>(head.voxels.size()));
+  EXPECT_GT(background_top(head), 390 + 4 * 8);
+  EXPECT_LT(background_top(head), 390 + 8 * 8);
+}
+
 TEST(ValueRange, ABrightLevelOnTheFacesIsNotTheBackground) {
   const auto negative = volume::make_volume({16, 16, 16}, glm::dvec3(1), VoxelType::U8, [](int i, int j, int k) {
     return glm::length(glm::dvec3(i, j, k) - 7.5) < 7 ? 20 + i : 200;

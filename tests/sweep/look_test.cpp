@@ -75,6 +75,30 @@ TEST(PlanPareto, LeavesOutRowsThatDidNotPassOrLackAFigure) {
   EXPECT_THAT(error_of([&] { plan::metric_of(merged, "psrn", "--y"); }), HasSubstr("did you mean 'psnr'"));
 }
 
+// "family" has a flag --kind, and every table has a column "kind".
+TEST(PlanTable, AnAxisIsSeenWhateverItsName) {
+  int seen = 0;
+  for (const std::string name :
+       {"id", "kind", "status", "message", "config_hash", "scene_hash", "program_hash", "command"}) {
+    auto merged = rows_of({{1, 10}, {2, 20}});
+    merged.axes[0].name = name;
+    for (auto& row : merged.rows) row.axes[0].name = name, row.kind = "family";
+    merged.rows[0].axes[0].value = std::string("rlut");
+    merged.rows[1].status = plan::Status::Fail;
+    for (const auto& columns : {std::vector<std::string>{}, std::vector<std::string>{name, "case." + name}}) {
+      const auto table = plan::table_of(merged, {.columns = columns, .where = {name + "=rlut"}, .sort = {name}});
+      ASSERT_EQ(table.rows.size(), 1u) << name;
+      if (columns.empty()) continue;
+      EXPECT_EQ(table.rows[0][0].text, "rlut") << name;
+      EXPECT_NE(table.rows[0][1].text, "rlut") << name;
+    }
+    EXPECT_EQ(plan::table_of(merged, {}).columns.front(), name);
+    ++seen;
+  }
+  std::printf("[figure] axes named as a fixed column that a table shows = %d (limit 8)\n", seen);
+  EXPECT_EQ(seen, 8);
+}
+
 TEST(PlanTable, ChoosesSortsAndWrites) {
   const auto merged = rows_of({{3, 30}, {1, 10}, {2, 20.5}});
   const auto table = plan::table_of(merged, {.columns = {"k", "cost", "psnr"}, .sort = {"-cost"}, .most = 2});

@@ -107,14 +107,16 @@ class Bench {
 
   void clock() {
     // What the others show in this cycle.
-    const bool commands = command_ < stream_.commands.size() && (offering_ || run_.commands.at(cycle_));
-    top_->s_axis_cmd_tvalid = commands ? 1 : 0;
-    if (commands) {
-      const auto words = cmodel::words_of(stream_.commands[command_]);
+    // While it is stopped an illegal command is offered: it is dropped like any other (M-fetch-20).
+    const bool dropped = stopping_ && !offering_;
+    const bool commands = !dropped && command_ < stream_.commands.size() && (offering_ || run_.commands.at(cycle_));
+    top_->s_axis_cmd_tvalid = commands || dropped ? 1 : 0;
+    if (commands || dropped) {
+      const auto words = cmodel::words_of(dropped ? cmodel::FetchCommand{} : stream_.commands[command_]);
       for (std::size_t i = 0; i < words.size(); ++i) top_->s_axis_cmd_tdata[i] = words[i];
     }
     const testbench::AxiAnswer answer = memory_.answer();
-    top_->m_axi_arready = memory_.ready() ? 1 : 0;
+    top_->m_axi_arready = memory_.ready() && (!run_.shy || top_->m_axi_arvalid != 0) ? 1 : 0;
     top_->m_axi_rvalid = answer.valid ? 1 : 0;
     top_->m_axi_rlast = answer.last ? 1 : 0;
     top_->m_axi_rresp = static_cast<std::uint8_t>(answer.response);
@@ -125,6 +127,7 @@ class Bench {
     eval(0);
     if ((out_.error == 0 || recovered_) && asked_ > out_.taken.size() && top_->busy == 0)
       say("not busy, and beats that were asked for have not been sent");  // M-fetch-19, step 1
+    look_at_control(answer);
     const Beat* offered = look();
     if (commands && top_->s_axis_cmd_tready != 0) {
       if (command_ == 0) out_.begun = cycle_;
@@ -165,6 +168,32 @@ class Bench {
     if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
   }
 
+  /// What is neither a beat nor a request's place.
+  void look_at_control(const testbench::AxiAnswer& answer) {
+    const bool asks = top_->m_axi_arvalid != 0, takes = top_->s_axis_cmd_tready != 0;
+    if (asks && (top_->m_axi_arcache != 3 || top_->m_axi_arprot != 0)) say("another ARCACHE or ARPROT");
+    if (asks && !asked_before_ && held_back_) say("asks while it is stopped or an error stands");  // M-fetch-17, -20
+    if (stopping_ && !takes) say("takes no command while it is stopped");                          // M-fetch-20
+    if (!stopping_ && top_->error != 0 && takes) say("takes a command while an error stands");     // M-fetch-17
+    if (bad_ && error_before_ == 0 && top_->error != 1) say("an unreadable beat is no error at once");
+    if (!stopping_ && top_->error == 0 && top_->busy == 0 && command_ > 0 && out_.taken.size() < ends_[command_ - 1])
+      say("not busy, and beats of a command have not been sent");
+    asked_before_ = asks && top_->m_axi_arready == 0;
+    held_back_ = stopping_ || top_->error != 0;
+    error_before_ = top_->error;
+    bad_ = answer.valid && answer.response != 0;
+  }
+  /// Beats to be sent up to the end of each command.
+  static std::vector<std::size_t> ends_of(const FetchStream& stream, const std::vector<std::size_t>& wanted) {
+    std::vector<std::size_t> out;
+    for (const cmodel::FetchCommand& command : stream.commands) {
+      const std::uint64_t first = (command.address - stream.address) / cmodel::kBeatBytes;
+      const auto end = std::ranges::lower_bound(wanted, first + command.beats + command.splats);
+      out.push_back(static_cast<std::size_t>(end - wanted.begin()));
+    }
+    return out;
+  }
+
   /// The device's verdict of this cycle.
   void judge() {
     const auto verdict = device_.verdict();
@@ -175,7 +204,7 @@ class Bench {
     if (number == stream_.hidden.size()) return say("a verdict of nothing");
     if (verdict->hidden != stream_.hidden[number])
       say("set " + std::to_string(number) + ": another verdict than the model's");
-    top_->verdict_tag = verdict->tag + (static_cast<int>(number) == run_.other_tag ? 1 : 0);
+    top_->verdict_tag = verdict->tag + (static_cast<int>(number) == run_.other_tag ? run_.other_by : 0U);
     top_->verdict_hidden = verdict->hidden ? 1 : 0;
     out_.verdicts.push_back(cycle_);
   }
@@ -222,7 +251,7 @@ class Bench {
   const FetchStream& stream_;
   const FetchRun& run_;
   FetchDevice& device_;
-  std::vector<std::size_t> wanted_;
+  std::vector<std::size_t> wanted_, ends_ = ends_of(stream_, wanted_);
   testbench::AxiReadMemory memory_;
   VerilatedContext context_;
   std::unique_ptr<Top> top_;
@@ -235,6 +264,9 @@ class Bench {
   std::uint64_t until_stop_ = run_.stop_after_error;
   bool waiting_ = false, offering_ = false, stopping_ = false;
   bool resetting_ = false, recovered_ = false;
+  // Of the cycle before: a request waits; nothing may be requested; error; a beat that could not be read has come.
+  bool asked_before_ = false, held_back_ = false, bad_ = false;
+  unsigned error_before_ = 0;
   Beat beat_{};
 };
 
@@ -247,6 +279,22 @@ std::vector<std::size_t> FetchStream::wanted() const {
     if (set_of[i] < 0 || trusted[set] || !hidden[set]) out.push_back(i);
   }
   return out;
+}
+
+void FetchStream::trust() {
+  trusted.clear();
+  // Sets with splats, command by command.
+  std::size_t number = 0;
+  bool hid = false;
+  for (const cmodel::FetchCommand& command : commands) {
+    bool hides = false;
+    for (const std::size_t end = number + command.sets; number < end; ++number) {
+      trusted.push_back(!hid);  // M-fetch-4
+      const auto splats = std::ranges::count(set_of, static_cast<int>(number));
+      hides = hides || (hidden[number] && splats > 0);
+    }
+    if (command.splats > 0) hid = hides;  // others are passed over (M-fetch-4)
+  }
 }
 
 FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, std::uint64_t address) {
@@ -286,18 +334,7 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<Beat> beats, 
     out.set_of.back() = covers.front();
     covers.pop_front();
   }
-  // Sets with splats, command by command.
-  std::size_t number = 0;
-  bool hid = false;
-  for (const cmodel::FetchCommand& command : out.commands) {
-    bool hides = false;
-    for (const std::size_t end = number + command.sets; number < end; ++number) {
-      out.trusted.push_back(!hid);  // M-fetch-4
-      const auto splats = std::ranges::count(out.set_of, static_cast<int>(number));
-      hides = hides || (out.hidden[number] && splats > 0);
-    }
-    if (command.splats > 0) hid = hides;  // others are passed over (M-fetch-4)
-  }
+  out.trust();
   return out;
 }
 

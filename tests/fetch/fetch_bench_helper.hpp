@@ -34,6 +34,8 @@ struct FetchStream {
   std::vector<bool> hidden;  ///< by cull_block
   /// By cull_block: its splats are asked for whatever the verdict, for no set of the command before was hidden.
   std::vector<bool> trusted;
+  /// Works `trusted` out again, where `hidden` was changed.
+  void trust();
   /// The beats that the device is to get, in order.
   std::vector<std::size_t> wanted() const;
 };
@@ -44,13 +46,15 @@ FetchStream fetch_stream(const cmodel::Config& config, std::vector<cmodel::Beat>
 struct FetchRun {
   FetchBuild build = FetchBuild::Default;
   testbench::AxiTimings memory = {};
+  bool shy = false;  ///< the memory is ready for an address only when it is offered
   testbench::Pattern ready = {}, commands = {};
   unsigned verdict_wait = 0;  ///< a verdict comes up to so many cycles later than it could, by seed
   std::uint64_t seed = 1;
   FetchFault fault = FetchFault::None;
   std::size_t spoiled = ~std::size_t{0};  ///< a beat that cannot be read
   bool spoiled_once = false;              ///< and can be read later
-  int other_tag = -1;                     ///< this cull_block's verdict has another tag
+  int other_tag = -1;                     ///< this cull_block's verdict has another tag,
+  std::uint32_t other_by = 1;             ///< greater by this, modulo 2^32
   unsigned error = 0;                     ///< the error expected
   bool any_error = false;                 ///< or any other
   std::size_t stop_after = 0;             ///< beats sent before `stop` is raised; 0: never

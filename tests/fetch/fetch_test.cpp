@@ -3,6 +3,7 @@
 // hidden or undecided, every cycle if the memory is regular, errors reported; and each planted fault seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "tests/cmodel/configs_helper.hpp"
@@ -18,6 +19,7 @@ using testbench::Pattern;
 
 constexpr std::uint64_t kAddress = 0x8'0000'0fa0;              ///< three beats before a page ends
 constexpr unsigned kResponse = 1, kVerdict = 2, kCommand = 3;  ///< errors
+constexpr std::uint32_t kMostSets = 1024;                      ///< of a command: 2^SETS_LOG2
 constexpr unsigned kLatencies[] = {1, 7, 40, 45};              ///< the last: all that 64 beats of room hide
 
 FetchStream stream_of(const char* name, std::uint64_t seed, std::uint64_t splats,
@@ -29,7 +31,7 @@ FetchStream stream_of(const char* name, std::uint64_t seed, std::uint64_t splats
                       kAddress);
 }
 
-/// For each of `empties` a sheet of so many sets without splats, in front of one whose three sets have two each.
+/// For each of `empties` a sheet of so many sets without splats, in front of one whose sets have 2, 0, 2 and 2.
 FetchStream stream_with_empty_sets(const std::vector<int>& empties) {
   cmodel::Config config = named_config("tiny");
   config.cull_map = static_cast<int>(cmodel::CullMap::Block);
@@ -46,7 +48,10 @@ FetchStream stream_with_empty_sets(const std::vector<int>& empties) {
     for (int i = 0; i < empty; ++i) w.cull_block(w.next_tag(), 0, 0, 16, 16, 0);
     w.end_sheet();
     w.begin_sheet(sheet++);
-    for (std::uint32_t i = 0; i < 3; ++i) w.cull_block(w.next_tag() + 2 * i, 0, 0, 16, 16, 2);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      w.cull_block(w.next_tag() + 2 * i, 0, 0, 16, 16, 2);
+      if (i == 0) w.cull_block(w.next_tag() + 2, 0, 0, 16, 16, 0);
+    }
     for (int i = 0; i < 6; ++i)
       w.splat(0, 8 << config.position_frac_bits, 8 << config.position_frac_bits, {1, 1, 1, 1});
     w.end_sheet();
@@ -142,8 +147,9 @@ TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
                                   .takes = pattern({"always", "random-30", "burst-60"}, 1),
                                   .has = pattern({"always", "random-60", "burst-25", "every-4"}, 2),
                                   .seed = seed},
+                       .shy = i % 5 == 0,
                        .ready = pattern({"always", "random-50", "burst-90", "alternate-7"}, 3),
-                       .commands = pattern({"always", "random-10"}, 4),
+                       .commands = pattern({"always", "random-10", "every-300"}, 4),
                        .verdict_wait = static_cast<unsigned>(seed % 3 * 15),
                        .seed = seed};
     const FetchResult seen = run_fetch(stream, run);
@@ -162,6 +168,24 @@ TEST(Fetch, SendsTheSameBeatsFromAnyMemory) {
   EXPECT_GT(under_way, 2U);
 }
 
+struct WrongCommand {
+  const char* what;
+  void (*spoil)(cmodel::FetchCommand&);
+};
+const WrongCommand kWrongCommands[] = {
+    {"address + 1", [](cmodel::FetchCommand& c) { c.address += 1; }},
+    {"address + 2", [](cmodel::FetchCommand& c) { c.address += 2; }},
+    {"address + 4", [](cmodel::FetchCommand& c) { c.address += 4; }},
+    {"address + 8", [](cmodel::FetchCommand& c) { c.address += 8; }},
+    {"address + 16", [](cmodel::FetchCommand& c) { c.address += 16; }},
+    {"long address, bit 40", [](cmodel::FetchCommand& c) { c.address |= std::uint64_t{1} << 40; }},
+    {"long address, bit 63", [](cmodel::FetchCommand& c) { c.address |= std::uint64_t{1} << 63; }},
+    {"no beats", [](cmodel::FetchCommand& c) { c.beats = c.sets = c.splats = 0; }},
+    {"more sets than beats", [](cmodel::FetchCommand& c) { c.sets = c.beats + 1; }},
+    {"more sets than 2^SETS_LOG2", [](cmodel::FetchCommand& c) { c.beats = c.sets = kMostSets + 1; }},
+    {"splats without sets", [](cmodel::FetchCommand& c) { c.sets = 0, c.splats = 1; }},
+};
+
 // Each error (M-fetch-17); commands that break M-fetch-1.
 TEST(Fetch, ReportsErrorsAndStops) {
   const FetchStream stream = stream_of("tiny", 5, 200);
@@ -178,25 +202,20 @@ TEST(Fetch, ReportsErrorsAndStops) {
     }
     for (const int set : {0, 3}) {
       FetchRun run{.build = build, .memory = {.latency = 5}};
-      run.other_tag = set;
+      run.other_tag = set, run.other_by = set == 0 ? 1 : ~0U;
       run.error = kVerdict;
       const FetchResult seen = run_fetch(stream, run);
       EXPECT_EQ(seen.finding, "");
       EXPECT_FALSE(seen.all_sent);
       ++told;
     }
-    FetchStream wrong = stream;
-    for (int i = 0; i < (build == FetchBuild::Narrow ? 5 : 4); ++i) {
-      cmodel::FetchCommand& command = wrong.commands[0];
-      command = stream.commands[0];
-      if (i == 0) command.address += 8;
-      if (i == 1) command.beats = 0;
-      if (i == 2) command.sets = command.beats + 1;
-      if (i == 3) command.sets = 0, command.splats = 1;
-      if (i == 4) command.address |= std::uint64_t{1} << 40;  // beyond ADDRESS_BITS
+    for (const auto& [what, spoil] : kWrongCommands) {
+      if (build == FetchBuild::Default && std::string(what).starts_with("long")) continue;  // takes 64 bits
+      FetchStream wrong = stream;
+      spoil(wrong.commands[0]);
       const FetchResult seen = run_fetch(wrong, {.build = build, .error = kCommand});
-      EXPECT_EQ(seen.finding, "");
-      EXPECT_EQ(seen.bursts, 0U);
+      EXPECT_EQ(seen.finding, "") << what;
+      EXPECT_EQ(seen.bursts, 0U) << what;
       ++told;
     }
   }
@@ -254,7 +273,17 @@ TEST(Fetch, WorksAgainAfterAStop) {
     FetchRun run{
         .build = build, .memory = {.latency = 9, .has = Pattern("random-60", 5)}, .ready = Pattern("random-60", 3)};
     run.verdict_wait = 12;
-    const Stops stops = stop_and_begin_again(stream_of("tiny", 6, 60), run, 97);
+    Stops stops = stop_and_begin_again(stream_of("tiny", 6, 60), run, 97);
+    EXPECT_EQ(stops.finding, "");
+    runs += stops.runs;
+    // With more sets on their way than the master keeps in mind: verdicts come during `stop` that match nothing.
+    run.memory.latency = 3, run.ahead = 60, run.verdict_wait = 30;
+    stops = stop_and_begin_again(stream_with_empty_sets({30, 7, 40}), run, 13);
+    EXPECT_EQ(stops.finding, "");
+    runs += stops.runs;
+    // And while beats are still to be sent.
+    run.ready = Pattern("every-30", 3), run.verdict_wait = 400;
+    stops = stop_and_begin_again(stream_with_empty_sets({30, 7, 40}), run, 97);
     EXPECT_EQ(stops.finding, "");
     runs += stops.runs;
   }
@@ -304,15 +333,35 @@ TEST(Fetch, WorksAgainAfterAnyError) {
 
 // M-fetch-1 where splats is 0, M-fetch-4 behind such a command
 TEST(Fetch, VerdictsOfSetsWithoutSplatsChangeNothing) {
-  const FetchStream stream = stream_with_empty_sets({1, 5, 2, 9});
-  for (const unsigned wait : {0U, 12U, 40U}) {
-    FetchRun run{.memory = {.latency = 2}};
-    run.verdict_wait = wait;
-    const FetchResult seen = run_fetch(stream, run);
+  FetchStream stream = stream_with_empty_sets({1, 5, 2, 9});
+  for (const bool hides : {false, true}) {
+    // Every other set with splats: the next sheet's sets are not trusted, and verdicts of those without splats come
+    // while its own are waited for.
+    bool hide = false;
+    for (std::size_t set = 0; set < stream.hidden.size() && hides; ++set) {
+      if (std::ranges::count(stream.set_of, static_cast<int>(set)) > 0) stream.hidden[set] = hide = !hide;
+    }
+    stream.trust();
+    for (const unsigned wait : {0U, 12U, 40U}) {
+      FetchRun run{.memory = {.latency = 2}};
+      run.verdict_wait = wait;
+      const FetchResult seen = run_fetch(stream, run);
+      EXPECT_EQ(seen.finding, "") << (hides ? "some hidden" : "none hidden") << ", verdicts wait " << wait;
+      EXPECT_TRUE(seen.all_sent);
+    }
+  }
+  std::printf("[figure] sets = %zu, beats = %zu\n", stream.hidden.size(), stream.beats.size());
+}
+
+// M-fetch-1
+TEST(Fetch, TakesAsManySetsAsACommandMayHave) {
+  const FetchStream stream = stream_with_empty_sets({kMostSets});
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    const FetchResult seen = run_fetch(stream, {.build = build, .memory = {.latency = 3}});
     EXPECT_EQ(seen.finding, "");
     EXPECT_TRUE(seen.all_sent);
   }
-  std::printf("[figure] sets = %zu, beats = %zu\n", stream.hidden.size(), stream.beats.size());
+  std::printf("[figure] sets of a command = %u\n", kMostSets);
 }
 
 // More sets than the master keeps in mind lie between it and the verdicts, as behind a FIFO: it waits (M-fetch-16).
@@ -334,6 +383,24 @@ TEST(Fetch, WaitsWhileTooManySetsAreUnjudged) {
   std::printf("[figure] runs with as many sets unjudged as there is room for = %llu\n",
               static_cast<unsigned long long>(full));
   EXPECT_GT(full, 0U);
+}
+
+// Other beats do not wait for verdicts (M-fetch-8, M-fetch-16).
+TEST(Fetch, SendsOtherBeatsWhileTooManySetsAreUnjudged) {
+  for (const FetchBuild build : {FetchBuild::Default, FetchBuild::Narrow}) {
+    const int room = build == FetchBuild::Default ? 16 : 8;
+    const FetchStream stream = stream_with_empty_sets({room});
+    FetchRun run{.build = build, .memory = {.latency = 1}};
+    run.ahead = 60, run.verdict_wait = 400;
+    const FetchResult seen = run_fetch(stream, run);
+    ASSERT_EQ(seen.finding, "");
+    EXPECT_EQ(seen.most_unjudged, static_cast<std::size_t>(room));
+    const auto last = std::ranges::find(stream.block, room - 1) - stream.block.begin();
+    for (std::ptrdiff_t beat = last + 1; beat < last + 3; ++beat) {  // end_sheet, begin_sheet
+      const auto at = static_cast<std::size_t>(beat);
+      EXPECT_EQ(seen.offered[at], seen.taken[at - 1] + 1) << beat - last << " behind the last set";
+    }
+  }
 }
 
 // M-fetch-17, error 2

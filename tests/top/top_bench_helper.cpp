@@ -46,10 +46,13 @@ class Bench {
     top_->s_axil_wstrb = kAllBytes;
     for (int i = 0; i < 3; ++i) edge();
     top_->aresetn = 1;
+    enable_interrupts();
     while (out_.finding.empty() && !done()) {
       if (cycle_ > run_.reset_at + kPatience) say("no end");
-      if (cycle_ == run_.reset_at) reset();
+      if (run_.reset_at != 0 && cycle_ == run_.reset_at) reset();
       if (out_.reset && !over_) go_on();
+      if (cycle_ == run_.status_at) out_.busy = busy();
+      if (interrupted_) write(cmodel::kRegIrq.address, run_.mask);
       clock();
     }
     out_.error = read(cmodel::kRegError.address);
@@ -66,7 +69,9 @@ class Bench {
   /// All was sent, and has come out; of the first frame where nothing was reset.
   bool done() {
     const bool sent = at_ == last_ && !offering_ && out_.reset == over_ && cycle_ >= run_.reset_at;
-    return sent && tile_.empty() && !busy() && top_->m_axis_tvalid == 0;
+    if (!sent || !tile_.empty() || busy()) return false;
+    if (top_->m_axis_tvalid != 0) say("not busy, and pixels wait");  // M-top-4
+    return true;
   }
   void edge() {
     top_->aclk = 0;
@@ -77,12 +82,7 @@ class Bench {
 
   void reset() {
     if (at_ == last_ && !offering_ && !busy()) return;  // the frame is over
-    if (run_.strobe != kAllBytes) {
-      top_->s_axil_wstrb = static_cast<std::uint8_t>(run_.strobe);
-      write(cmodel::kRegControl.address, kSoftReset | kDrop);
-      top_->s_axil_wstrb = kAllBytes;
-      return;
-    }
+    if (run_.harmless) return write_harmless();
     out_.reset = true;
     if (run_.hard) {
       top_->aresetn = 0;
@@ -97,6 +97,24 @@ class Bench {
       last_ = at_;
     }
     out_.tiles.clear();
+    if (!run_.hard) return;
+    out_.lasts.clear(), out_.interrupts.clear();
+    interrupted_ = false;
+    enable_interrupts();
+  }
+  void enable_interrupts() {
+    if (run_.mask != 0) write(cmodel::kRegIrqMask.address, run_.mask);
+  }
+  void write_harmless() {
+    if (run_.address_first) {
+      top_->s_axil_awaddr = static_cast<std::uint16_t>(cmodel::kRegControl.address);
+      top_->s_axil_wdata = kSoftReset | kDrop;
+      top_->s_axil_awvalid = 1;
+      for (int i = 0; i < 3; ++i) clock();
+    }
+    top_->s_axil_wstrb = static_cast<std::uint8_t>(run_.strobe);
+    write(cmodel::kRegControl.address, *run_.harmless);
+    top_->s_axil_wstrb = kAllBytes;
   }
   /// Where all is at rest, the next frame may come.
   void go_on() {
@@ -133,11 +151,12 @@ class Bench {
     offering_ = offering_ || (at_ < last_ && run_.source.at(cycle_));
     top_->s_axis_tvalid = offering_ ? 1 : 0;
     for (std::size_t i = 0; offering_ && i < (*sent_)[at_].size(); ++i) top_->s_axis_tdata[i] = (*sent_)[at_][i];
-    if (run_.hard && out_.reset && !over_ && at_ > reset_beat_)
-      top_->s_axis_tdata[0] = static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame);
+    if (run_.hard && out_.reset && !over_ && at_ > reset_beat_) nearly_begin();
     top_->m_axis_tready = run_.sink.at(cycle_) ? 1 : 0;
     top_->aclk = 0;
     top_->eval();
+    if (top_->irq != 0 && !interrupted_) out_.interrupts.push_back(cycle_);
+    interrupted_ = top_->irq != 0;
     if (top_->m_axis_tvalid != 0 && top_->m_axis_tready != 0) take();
     const bool taken = offering_ && top_->s_axis_tready != 0;
     top_->aclk = 1;
@@ -145,10 +164,18 @@ class Bench {
     top_->aclk = 0;
     top_->eval();
     if (taken) {
+      if (out_.first_taken == 0) out_.first_taken = cycle_;
       offering_ = false;
       ++at_;
     }
     ++cycle_;
+  }
+
+  /// The beat has the opcode of a begin_frame, or its magic word; the other one is just beside it.
+  void nearly_begin() {
+    const std::uint32_t opcode = (at_ - reset_beat_) % 2;
+    top_->s_axis_tdata[0] = static_cast<std::uint32_t>(cmodel::Opcode::BeginFrame) + 1 - opcode;
+    top_->s_axis_tdata[1] = cmodel::kStreamMagic + opcode;
   }
 
   void take() {
@@ -160,6 +187,7 @@ class Bench {
         tile_.push_back(top_->m_axis_tdata[kPixelWords * pixel + word]);
     }
     if (top_->m_axis_tlast == 0) return;
+    out_.lasts.push_back(cycle_);
     if (top_->m_axis_tuser == 0) out_.tiles.push_back(tile_);
     tile_.clear();
   }
@@ -175,6 +203,7 @@ class Bench {
   std::size_t at_ = 0, last_ = sent_->size();  ///< the next beat; where the source ends
   std::uint64_t cycle_ = 0;
   bool offering_ = false, resetting_ = false, over_ = false;  ///< over: the next frame is sent
+  bool interrupted_ = false;
 };
 
 }  // namespace

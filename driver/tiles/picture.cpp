@@ -60,7 +60,7 @@ struct Shared {
     return {head.mode, static_cast<std::uint32_t>(number), x, y, std::min(width, head.grid.image_width - x),
             std::min(height, head.grid.image_height - y)};
   }
-  /// The one band that counts a splat, of those that it touches: the centre's.
+  /// The band of a splat's centre, which counts it; it may touch others.
   int band_of(const QuantisedSplat& splat) const {
     const int half = (1 << head.config.position_frac_bits) / 2;
     const int x = std::clamp((splat.x + half) >> head.config.position_frac_bits, 0, head.grid.image_width - 1);

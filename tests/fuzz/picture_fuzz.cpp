@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures: read, or refused; the decoders are OpenImageIO's.
+// Pictures: read, or refused; the decoders are libpng, OpenEXR and OpenImageIO.
 #include "base/images/image_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

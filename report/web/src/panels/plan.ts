@@ -111,7 +111,7 @@ export const plan: Panel = {
       },
       "All rows",
     );
-    const note = h("p", { class: "note", "aria-live": "polite" });
+    const caption = h("p", { class: "note", "aria-live": "polite" });
     const place = h("div");
     const key = h("div");
     if (plottable.length >= 2) {
@@ -124,7 +124,7 @@ export const plan: Panel = {
         h("div", { class: "controls" }, h("label", {}, "Across ", pick_x), h("label", {}, "Up ", pick_y), h("label", {}, "Colour ", pick_colour), clear),
         place,
         key,
-        note,
+        caption,
       );
     }
 
@@ -177,7 +177,7 @@ export const plan: Panel = {
     }
 
     function describe(row: Result | null, x: Quantity, y: Quantity): void {
-      note.textContent = row
+      caption.textContent = row
         ? `${Object.entries(row.axes ?? {}).map(([name, value]) => `${name} ${value}`).join(", ")}: ${x.title} ${number_text(x.of(row))}, ${y.title} ${number_text(y.of(row))}, ${row.status}`
         : span
           ? `${number_text(shown.length)} cases in the rectangle; a click beside the points takes it back.`
@@ -223,7 +223,7 @@ export const plan: Panel = {
         // The filter changes the front; the brush alone keeps the points.
         if (span) {
           shown = left;
-          note.textContent = `${number_text(left.length)} cases in the rectangle; a click beside the points takes it back.`;
+          caption.textContent = `${number_text(left.length)} cases in the rectangle; a click beside the points takes it back.`;
         } else draw();
       },
     });

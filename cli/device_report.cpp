@@ -113,7 +113,7 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
 std::string to_text(const DeviceReport& report) {
   const std::string name = report.config.name + " " + hash_text(cmodel::config_hash(report.config));
   if (!report.counted) {
-    return fmt::format("driver: {} and {} can change a pixel; the rest was not visited (--counters visits it)\n",
+    return fmt::format("driver: {} and {} can change a pixel; others are left out (--counters counts them)\n",
                        counted(report.driver.voxels, "voxel"), counted(report.driver.splat_records, "splat record")) +
            fmt::format("device: configuration {}\nunit: fast ({}), without counters\n", name, report.units.vectors);
   }

@@ -51,10 +51,9 @@ class VoxelSplats {
     return material.extinction * opacity_scale_;
   }
   /// Whether no voxel with a value of [low, high] has a splat.
-  bool none(float low, float high) const {
+  bool transparent(float low, float high) const {
     return kind_ == SplatKind::Densities ? !(high > least_) : classify_.transparent(low, high);
   }
-  int slice_axis() const { return slice_axis_; }
   int slice(const glm::ivec3& at) const { return ascending_ ? at[slice_axis_] : last_slice_ - at[slice_axis_]; }
   /// The splat of a voxel at `position`, with what extinction() returned.
   Splat operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material, float extinction) const;

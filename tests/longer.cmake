@@ -89,7 +89,7 @@ set(fastsplat_longer_tests
   golden.XRay.ManySheetsInAWideImage
   mustfail.Culling.EachEventHappensInItsCycle
   mustfail.Culling.RandomStreamsOfEveryClass
-  mustfail.Culling.RefusesTheSameConfigurationsAsTheModel
+  mustfail.Culling.RefusesTheSameStreamsAsTheModel
   mustfail.EllipseFrames.TheDeviceEqualsTheModel
   mustfail.EverySample.EachEventHappensInItsCycle
   mustfail.EverySample.RandomStreamsOfEveryClass
@@ -100,7 +100,7 @@ set(fastsplat_longer_tests
   mustfail.PostClassified.EachEventHappensInItsCycle
   mustfail.PostClassified.FramesEqualTheModel
   mustfail.PostClassified.RandomStreamsOfEveryClass
-  mustfail.PostClassified.RefusesTheSameConfigurationsAsTheModel
+  mustfail.PostClassified.RefusesTheSameStreamsAsTheModel
   pipeline.Chain.AllDeviceIsTheIntegerModelBitForBit
   pipeline.Chain.AllDeviceIsTheIntegerModelForEveryKindOfIndex
   pipeline.Chain.EverySampleAllDeviceIsTheIntegerModel

@@ -54,6 +54,7 @@ class Page:
 
     def __init__(self, text):
         self.paragraphs, self.cells, self.code, self.anchors, self.seen = [], [], [], set(), collections.Counter()
+        self.twice = []
         self.titles = " ".join(re.findall(r"(?m)^#+ .*|\*[^*\n]+\*", text))
         self.links, block, fence, in_list, listing = [], [], None, False, ""
         for number, line in enumerate(text.splitlines() + [""], 1):
@@ -83,7 +84,10 @@ class Page:
             elif bare:
                 block.append((line[item.end():] if item else re.sub(r"^> ?", "", line), number))
             in_list = bool(item) or in_list and (not bare or line.startswith(" "))
-            self.anchors.update(re.findall(r"<a (?:id|name)=\"([^\"]+)\"", line))
+            for anchor in re.findall(r"<a (?:id|name)=\"([^\"]+)\"", line):
+                if anchor in self.anchors:
+                    self.twice.append((anchor, number))
+                self.anchors.add(anchor)
         self.paragraphs = [(text, line) for text, line in self.paragraphs if not text.startswith("<!--")]
 
     def close(self, block):
@@ -189,6 +193,8 @@ def page_defects(path, pages, programs, source):
             yield "links", line, f"{target}: no such file"
         elif anchor and where in pages and anchor not in pages[where].anchors:
             yield "links", line, f"{target}: {where} has no such heading"
+    for anchor, line in page.twice:
+        yield "links", line, f"{anchor}: a second anchor of this name"
     for code, line in page.code:
         for match in COMMAND.finditer(re.sub(r"\\\n", " ", code)):
             why = programs.defect(match[1])

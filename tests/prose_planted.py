@@ -35,6 +35,7 @@ In order: it is no longer so. A "quote is no name". {LONG[:-5]}. `{LONG}` is cod
 ```
 {LONG} is no prose, [lost](gone.md).
 ```
+<a id="d1"></a>One. <a id="d2"></a>Two. <a id="d1"></a>One again.
 """
 HEADER = f"""// In order: is no longer.
 // A value that is no
@@ -57,9 +58,9 @@ const char* y = "a \\" // told";
 EXPECTED = {
     ("page.md", 2, "sentences"), ("page.md", 3, "wordings"), ("page.md", 4, "wordings"), ("page.md", 6, "cells"),
     ("page.md", 8, "links"), ("page.md", 10, "links"), ("page.md", 12, "commands"), ("page.md", 20, "commands"), ("page.md", 22, "commands"),
-    ("a.hpp", 1, "wordings"), ("a.hpp", 5, "sentences"), ("a.hpp", 6, "links"), ("a.hpp", 10, "links"), ("b.cpp", 2, "bodies"), ("b.cpp", 4, "bodies"), ("c.sh", 1, "bodies"),
+    ("page.md", 29, "links"), ("a.hpp", 1, "wordings"), ("a.hpp", 5, "sentences"), ("a.hpp", 6, "links"), ("a.hpp", 10, "links"), ("b.cpp", 2, "bodies"), ("b.cpp", 4, "bodies"), ("c.sh", 1, "bodies"),
 }
-COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 5, "commands": 8, "bodies": 3}
+COUNTS = {"sentences": 2, "cells": 1, "wordings": 5, "links": 6, "commands": 8, "bodies": 3}
 PROGRAM = """#!/bin/sh
 case "$*" in
   help | "draw --help" | "verb --help" | "verb sub --help") printf '%s\\n' '  --size N' "$(test "$1" = verb && echo Subcommands:)" ;;

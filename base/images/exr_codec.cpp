@@ -19,10 +19,9 @@
 #include <cstring>
 #include <new>
 
+#include "base/images/decoding.hpp"
 #include "base/images/encoding.hpp"
-#include "base/images/image_channels.hpp"
 #include "base/images/metadata_text.hpp"
-#include "base/images/picture_limits.hpp"
 
 namespace fastsplat::images {
 namespace {
@@ -80,11 +79,11 @@ class Decoder {
                        height = std::int64_t{window.max.y} - window.min.y + 1;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
       names_.emplace_back(channel.name());
-    if (auto refusal = size_refusal(width, height, static_cast<std::int64_t>(names_.size()))) throw Refused(*refusal);
+    check_size(width, height, static_cast<std::int64_t>(names_.size()));
     if (header.displayWindow() != window)
       throw Refused("the data window differs from the display window", {}, {}, "convert with oiiotool --croptofull");
-    const auto* turned = header.findTypedAttribute<Imf::IntAttribute>("Orientation");
-    if (turned != nullptr && turned->value() != 1) throw turned_refusal(turned->value());
+    if (const auto* orientation = header.findTypedAttribute<Imf::IntAttribute>("Orientation"))
+      check_upright(orientation->value());
     if (header.hasTileDescription()) check_tiles(header.tileDescription());
     order_ = channel_order(names_);
 

@@ -9,9 +9,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "base/images/image_channels.hpp"
+#include "base/images/decoding.hpp"
 #include "base/images/metadata_text.hpp"
-#include "base/images/picture_limits.hpp"
 
 namespace fastsplat::images {
 namespace {
@@ -139,11 +138,11 @@ int exif_orientation(std::span<const unsigned char> exif) {
 }
 
 /// libpng may meet EXIF data before or behind the samples.
-void check_upright(Png& png) {
+void check_exif(Png& png) {
   png_uint_32 size = 0;
   png_bytep exif = nullptr;
   if (png_get_eXIf_1(png.state, png.info, &size, &exif) == 0) return;
-  if (const int orientation = exif_orientation({exif, size}); orientation != 1) throw turned_refusal(orientation);
+  check_upright(exif_orientation({exif, size}));
 }
 
 void write_texts(Png& png, const Encoding& picture) {
@@ -171,13 +170,12 @@ std::optional<ErrorParts> decode_png(std::string_view bytes, LoadedImage& loaded
     png_set_read_fn(png.state, &left, take);
     png_set_user_limits(png.state, 0x7fffffff, 0x7fffffff);
     png_read_info(png.state, png.info);
-    check_upright(png);
-    if (auto refusal = size_refusal(png_get_image_width(png.state, png.info), png_get_image_height(png.state, png.info),
-                                    png_get_channels(png.state, png.info)))
-      throw Refused(std::move(*refusal));
+    check_exif(png);
+    check_size(png_get_image_width(png.state, png.info), png_get_image_height(png.state, png.info),
+               png_get_channels(png.state, png.info));
     loaded = Pixels(png, bytes.size()).load();
     loaded.metadata = metadata_of(png);
-    check_upright(png);
+    check_exif(png);
     return {};
   } catch (const Refused& refused) {
     return refused.parts;

@@ -100,7 +100,7 @@ class TileUnit final : public RecordSink {
     return frozen;
   }
   // With Counts::None, a record may be made ahead of its sheet and left out if it is hidden by then.
-  /// Its colour is still to come: dye().
+  /// Without its colour.
   WaitingRecord record(const PlacedFootprint& placed) const {
     return {.job = {.weights = placed.weights,
                     .at = placed.at,
@@ -114,7 +114,7 @@ class TileUnit final : public RecordSink {
             .set = placed.set,
             .counted = placed.counted};
   }
-  void dye(WaitingRecord& record, const std::array<std::uint32_t, 4>& colour) const {
+  void set_colour(WaitingRecord& record, const std::array<std::uint32_t, 4>& colour) const {
     for (std::size_t c = 0; c < 4; ++c) record.job.colour[c] = static_cast<std::uint16_t>(colour[c] << colour_shift_);
   }
   /// Draws it in the open sheet. False if it is hidden.

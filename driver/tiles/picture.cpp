@@ -4,8 +4,9 @@
 #include "driver/tiles/picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <cassert>
+#include <limits>
 #include <vector>
 
 #include "base/parallel/parallel.hpp"
@@ -49,7 +50,7 @@ struct Shared {
         width(std::min(frame.grid.image_width, kBlocksAcross * frame.config.lanes)),
         height((band_rows + frame.config.lanes - 1) / frame.config.lanes * frame.config.lanes) {
     for (const volume::Brick& brick : volume::bricks_of(*scene.volume))
-      if (!voxels.none(brick.least, brick.greatest)) bricks.push_back(bounded(brick));
+      if (!voxels.transparent(brick.least, brick.greatest)) bricks.push_back(bounded(brick));
     std::ranges::stable_sort(bricks, {}, &Brick::sheet);
   }
 
@@ -99,7 +100,6 @@ struct Shared {
 struct VisitedBand {
   DriverReport report;
   double asked = 0.0, lost = 0.0;  ///< of all colour and opacity, and of the splats that vanished
-  std::uint64_t bricks = 0, hidden_bricks = 0;
 };
 
 /// Draws bands, one after the other.
@@ -121,7 +121,6 @@ class BandPainter {
           brick.box.y0 < band_.y + band_.height)
         bricks_.push_back(&brick);
     }
-    result.bricks = bricks_.size();
     unit_.begin_band(band_, true, 0);
     active_.clear();
     std::size_t next = 0;
@@ -165,10 +164,7 @@ class BandPainter {
   void open(const Brick& brick) {
     const cmodel::PixelBox box{brick.box.x0 - band_.x, brick.box.y0 - band_.y, brick.box.x1 - band_.x,
                                brick.box.y1 - band_.y};
-    if (unit_.terminated(box)) {
-      ++result_->hidden_bricks;
-      return;
-    }
+    if (unit_.terminated(box)) return;
     const volume::Volume& volume = *shared_.scene.volume;
     for (int k = brick.low.z; k <= brick.high.z; ++k) {
       for (int j = brick.low.y; j <= brick.high.y; ++j) {
@@ -211,7 +207,7 @@ class BandPainter {
     const Share share =
         shared_.head.sliced() ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
     if (!share.empty()) {
-      unit_.dye(splat.record, share.words);
+      unit_.set_colour(splat.record, share.words);
       if (!unit_.add(splat.record)) return false;
       drawn_ = true;
       result_->report.splat_records += splat.record.counted ? 1 : 0;
@@ -249,8 +245,8 @@ class BandPainter {
   const Shared& shared_;
   cmodel::BeginTile band_;
   cmodel::fast::TileUnit<Word> unit_;
-  std::vector<const Brick*> bricks_;            ///< that meet the band, by sheet
-  std::vector<Splats> waiting_;                 ///< by their first sheet
+  std::vector<const Brick*> bricks_;  ///< that meet the band, by sheet
+  std::vector<Splats> waiting_;       ///< by their first sheet
   std::vector<Splats> spare_;
   Splats active_;  ///< that reach the open sheet and were drawn in an earlier one
   bool drawn_ = false;
@@ -280,8 +276,6 @@ std::optional<Picture> draw_bands(const Shared& shared, int threads, const Progr
   for (const cmodel::Counters& one : losses) out.losses += one;
   double asked = 0.0, lost = 0.0;
   for (const VisitedBand& one : results) {
-    out.bricks += one.bricks;
-    out.hidden_bricks += one.hidden_bricks;
     out.report.voxels += one.report.voxels;
     out.report.splat_records += one.report.splat_records;
     out.report.saturated_voxels += one.report.saturated_voxels;

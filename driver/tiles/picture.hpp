@@ -2,7 +2,6 @@
 // Draws a frame's words without counting anything: what cannot change a pixel is neither classified nor projected.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "base/progress.hpp"
@@ -23,7 +22,6 @@ struct Picture {
   cmodel::Frame frame;
   cmodel::Counters losses;  ///< only the *_saturated, of visible pixels
   DriverReport report;      ///< of the splats visited; no tiles or sheets
-  std::uint64_t bricks = 0, hidden_bricks = 0;  ///< with a splat, in each band; of those, behind terminated pixels
 };
 
 /// The words are those of the counting units. Empty if a sum may have been cut. `band_rows`, the height of a band,

@@ -20,7 +20,7 @@ cli_test::Result bench(const std::vector<std::string>& arguments) {
   return result;
 }
 
-/// The number before `what` in the text; -1 if there is none.
+/// The number before `what` in the text, or -1.
 long number_before(const std::string& text, const std::string& what) {
   const auto at = text.find(what);
   if (at == std::string::npos) return -1;

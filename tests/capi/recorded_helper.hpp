@@ -18,7 +18,7 @@ const Recorded& recorded();  ///< of tiny
 const Recorded& recorded_that_culls();
 inline const char* const kCulling = FASTSPLAT_SOURCE_DIR "/configs/faults/cull.toml";
 
-/// A Python that has `module`; empty if there is none.
+/// A Python that has `module`, or an empty text.
 std::string python_with(const std::string& module);
 
 }  // namespace fastsplat::test

@@ -61,7 +61,7 @@ class LaneStimulus {
 
 struct LaneResult {
   std::uint64_t pixels = 0;
-  std::string different;  ///< the first difference; empty if there is none
+  std::string different;  ///< the first difference, or empty
 };
 
 /// Top: the Verilated fastsplat_classify_lane.

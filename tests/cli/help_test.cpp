@@ -15,7 +15,7 @@ using Words = std::vector<std::string>;
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-/// The text between `from` and the next `to`; empty if there is none.
+/// The text between `from` and the next `to`, or an empty text.
 std::string part_of(const std::string& text, const std::string& from, const std::string& to) {
   const auto begin = text.find(from);
   if (begin == text.npos) return {};

@@ -210,7 +210,7 @@ TEST(PatternTables, NodesLieAroundTheVisibleInAHaze) {
   }
 }
 
-// N-8-101 to N-8-104: nodes are levelled between others; at an end there is no other. At the corners they are the
+// N-8-101 to N-8-104: nodes are levelled between others. Those at the ends lack a neighbour, so the corners are the
 // pattern itself, at the place of the node (N-8-102).
 TEST(PatternTables, NodesAtTheCornersAreThePattern) {
   const auto description = with_texture(post_view(300), SolidKind::Stripes, 6.0);

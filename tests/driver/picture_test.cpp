@@ -15,10 +15,11 @@ struct Both {
   DeviceRender picture, counted;
 };
 
-Both drawn(const scene::SceneDescription& description, const cmodel::Config& config) {
+/// Without and with counters; by default the picture in bands of a row of blocks.
+Both drawn(const scene::SceneDescription& description, const cmodel::Config& config, int band_rows = 1) {
   const scene::Scene scene = scene::build_scene(description);
-  Both out{.picture = render(scene, config, {.threads = 2, .counters = false, .band_rows = config.lanes}),
-           .counted = render(scene, config, {.threads = 1})};
+  Both out{.picture = render(scene, config, {.threads = 2, .counters = false, .band_rows = band_rows}),
+           .counted = render(scene, config, {.threads = 1, .band_rows = band_rows})};
   EXPECT_EQ(out.picture.frame.words, out.counted.frame.words);
   EXPECT_TRUE(out.counted.counted);
   return out;
@@ -46,28 +47,47 @@ TEST(Picture, VisitsOnlyWhatCanChangeAPixel) {
   }
 }
 
+// In one band, where both count alike: a record on terminated blocks alone is not drawn.
+TEST(Picture, DrawsNoRecordThatTheCountingUnitHides) {
+  auto description = view_of("binary-cube:40", 72);
+  description.opacity_scale = 6.0;
+  const Both both = drawn(description, load_config("base"), 1000);
+  EXPECT_FALSE(both.picture.counted);
+  figure("records drawn", static_cast<double>(both.picture.report.splat_records));
+  figure("records of the counting unit, hidden", static_cast<double>(both.counted.units.hidden_splats));
+  EXPECT_GT(both.counted.units.hidden_splats, 0U);
+  EXPECT_LE(both.picture.report.splat_records,
+            both.counted.report.splat_records - both.counted.units.hidden_splats);
+}
+
 // Where nothing is hidden, everything is visited once, whatever bands there are.
 TEST(Picture, CountsASplatInOneBand) {
   auto description = view_of("shells:24", 60);
-  description.opacity_scale = 0.02;
-  const Both both = drawn(description, load_config("exact"));
+  description.opacity_scale = 2e-5;
+  const Both both = drawn(description, load_config("exact"));  // a tile: records of several would be more
   EXPECT_FALSE(both.picture.counted);
   figure("voxels", static_cast<double>(both.picture.report.voxels));
   EXPECT_EQ(both.picture.report.voxels, both.counted.report.voxels);
   EXPECT_EQ(both.picture.report.splat_records, both.counted.report.splat_records);
+  figure("voxels that vanished", static_cast<double>(both.picture.report.vanished_voxels));
+  EXPECT_GT(both.picture.report.vanished_voxels, 0U);
   EXPECT_EQ(both.picture.report.vanished_voxels, both.counted.report.vanished_voxels);
+  EXPECT_NEAR(both.picture.report.vanished_share, both.counted.report.vanished_share, 1e-12);  // sums of 64 bits
 }
 
 // Losses of visible pixels are reported as they are with counters.
 TEST(Picture, HasTheLossesOfVisiblePixels) {
   auto description = view_of("shells:24", 60);
   description.opacity_scale = 80.0;
-  const Both both = drawn(description, load_config("base"));
+  cmodel::Config config = load_config("base");
+  config.pixel_int_bits = 0, config.freeze_below = 1;  // 1.0 is reached and saturates
+  const Both both = drawn(description, config);
   EXPECT_FALSE(both.picture.counted);
   figure("saturated records", static_cast<double>(both.picture.report.saturated_records));
   figure("output words saturated", static_cast<double>(both.picture.counters.pixel_saturated));
   EXPECT_GT(both.picture.report.saturated_records, 0U);
   EXPECT_LT(both.picture.report.saturated_records, both.counted.report.saturated_records);
+  EXPECT_GT(both.picture.counters.pixel_saturated, 0U);
   EXPECT_EQ(both.picture.counters.pixel_saturated, both.counted.counters.pixel_saturated);
 }
 

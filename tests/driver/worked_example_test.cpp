@@ -123,7 +123,7 @@ TEST(WorkedExample, ThePageShowsTheWordsOfDriverAndModel) {
   const double dx = kX - kCentreX, dy = kY - kCentreY, entries = config.radial_entries / (kRadius * kRadius);
   const double weight = std::exp(-8.0 * (dx * dx + dy * dy) / (kRadius * kRadius)), tau = kTau * weight;
   const double clear = std::exp(-tau);
-  const auto colour = [&](double opacity) { return kRed / kTau * opacity; };
+  const auto colour = [&](double alpha) { return kRed / kTau * alpha; };
 
   const auto real = [](std::int64_t w, int bits) { return std::ldexp(static_cast<double>(w), -bits); };
   const auto scaled = [&](std::int64_t w, int bits) { return decimal(real(w, bits)); };

@@ -175,7 +175,7 @@ class Bench {
     if (asks && !asked_before_ && held_back_) say("asks while it is stopped or an error stands");  // M-fetch-17, -20
     if (stopping_ && !takes) say("takes no command while it is stopped");                          // M-fetch-20
     if (!stopping_ && top_->error != 0 && takes) say("takes a command while an error stands");     // M-fetch-17
-    if (bad_ && error_before_ == 0 && top_->error != 1) say("an unreadable beat is no error at once");
+    if (bad_ && error_before_ == 0 && top_->error != 1) say("error stays 0 after an unreadable beat");
     if (!stopping_ && top_->error == 0 && top_->busy == 0 && command_ > 0 && out_.taken.size() < ends_[command_ - 1])
       say("not busy, and beats of a command have not been sent");
     asked_before_ = asks && top_->m_axi_arready == 0;

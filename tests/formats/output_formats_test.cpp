@@ -269,8 +269,8 @@ TEST(OutputFormats, MarkdownCutsLongTablesAndSaysSo) {
 // The page's rule; messages on the terminal keep the result's path.
 TEST(OutputFormats, NameFilesWithoutTheirFolders) {
   std::vector<Result> results(2, kind("compare"));
-  results[0].file = "/home/jane/a/compare.json", results[1].file = "/home/jane/b/compare.json";
-  results[0].json["command"] = "fastsplat compare /home/jane/a/x.exr '/home/jane/b c/y.exr'";
+  results[0].file = "/data/jane/a/compare.json", results[1].file = "/data/jane/b/compare.json";
+  results[0].json["command"] = "fastsplat compare /data/jane/a/x.exr '/data/jane/b c/y.exr'";
   results[1].json["command"] = "fastsplat compare ../jane/x.exr /srv/jane/z.exr";
   std::size_t formats = 0;
   for (const auto& format : {to_junit, to_csv, to_markdown}) {
@@ -285,7 +285,7 @@ TEST(OutputFormats, NameFilesWithoutTheirFolders) {
     to_junit(results);
     ADD_FAILURE() << "is accepted";
   } catch (const UserError& error) {
-    EXPECT_EQ(error.parts().where, "/home/jane/a/compare.json");
+    EXPECT_EQ(error.parts().where, "/data/jane/a/compare.json");
   }
   std::printf("[figure] output formats without folders = %zu (limit 3)\n", formats);
 }

@@ -24,7 +24,7 @@ using Bytes = std::span<const std::uint8_t>;
   std::abort();
 }
 
-/// Removes and returns the first byte; 0 if there is none.
+/// Removes and returns the first byte, or 0 after the last.
 inline std::uint8_t take_byte(Bytes& bytes) {
   if (bytes.empty()) return 0;
   const std::uint8_t first = bytes.front();

@@ -167,8 +167,8 @@ std::vector<Lattice> block_scenes() {
   return {oblique, near};
 }
 
-// A block may be called hidden only if none of its voxels is visible: its window contains theirs and its sheet is no
-// later than theirs, for any map.
+// A block may be called hidden only if all its voxels are: for any map, its window contains theirs, and its sheet is
+// the first of theirs or an earlier one.
 TEST(VoxelBlocks, ABlockThatIsHiddenHasNoVisibleVoxel) {
   constexpr int kMargin = 2;
   long voxels = 0, hidden_blocks = 0, hidden_voxels = 0, leaves = 0;

@@ -70,7 +70,7 @@ TEST(Culling, RandomStreamsOfEveryClass) {
 
 // Successive frames as well, whose groups are hidden, sent (M-cull-14) and omitted (S-cull-9, S-cull-10, M-cull-15);
 // tiles that end while a table is built (M-cull-11).
-TEST(Culling, RefusesTheSameConfigurationsAsTheModel) {
+TEST(Culling, RefusesTheSameStreamsAsTheModel) {
   const cmodel::Config config = culling();
   const auto result =
       testbench::check_refusals(config, [&](cmodel::PixelSink& pixels, const testbench::RtlOptions& rtl) {

@@ -115,7 +115,7 @@ TEST(PostClassified, FramesEqualTheModel) {
 // Tables of densities and their words (N-6.2-6, S-table-11, S-table-12), tiles (N-6.2-3, S-tile-1, S-tile-3) and sheets
 // (S-tile-7) just outside the legal range: refused by the model's rule. Density tiles that are cut short end in the
 // cycle model's cycles (M-density-13, M-density-18).
-TEST(PostClassified, RefusesTheSameConfigurationsAsTheModel) {
+TEST(PostClassified, RefusesTheSameStreamsAsTheModel) {
   const auto result = testbench::check_refusals(post(), whole());
   testbench::expect_all(result);
   const int refused = testbench::refused_streams(result);

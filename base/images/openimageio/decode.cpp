@@ -11,11 +11,10 @@
 #include <new>
 #include <utility>
 
+#include "base/images/decoding.hpp"
 #include "base/images/encoding.hpp"
-#include "base/images/image_channels.hpp"
 #include "base/images/metadata_text.hpp"
 #include "base/images/openimageio/operations.hpp"
-#include "base/images/picture_limits.hpp"
 
 namespace fastsplat::images {
 namespace {
@@ -87,7 +86,7 @@ class Decoder {
 
   void check_header() {
     if (spec_.deep || spec_.depth != 1) refuse("deep or volume image", "a flat image");
-    if (auto refusal = size_refusal(spec_.width, spec_.height, spec_.nchannels)) throw Refused(std::move(*refusal));
+    check_size(spec_.width, spec_.height, spec_.nchannels);
     const int channels = spec_.nchannels;
     order_ = channel_order(spec_.channelnames);
     const bool whole = spec_.x == spec_.full_x && spec_.y == spec_.full_y && spec_.width == spec_.full_width &&
@@ -110,8 +109,7 @@ class Decoder {
 
   /// Refuses declarations that would change samples, which are taken as stored.
   void check_declared() {
-    if (const int orientation = spec_.get_int_attribute("Orientation", 1); orientation != 1)
-      throw turned_refusal(orientation);
+    check_upright(spec_.get_int_attribute("Orientation", 1));
     const std::string model = spec_.get_string_attribute(std::string(input_->format_name()) + ":ColorSpace");
     constexpr int kPalette = 3;  // WhiteIsZero, BlackIsZero, RGB and palette are read as grey and RGB
     const bool followed = model.empty() || model == "palette";

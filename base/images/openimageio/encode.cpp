@@ -3,7 +3,6 @@
 #include <OpenImageIO/imageio.h>
 
 #include <exception>
-#include <utility>
 
 #include "base/images/metadata_text.hpp"
 #include "base/images/openimageio/operations.hpp"
@@ -13,21 +12,8 @@ namespace {
 
 using OIIO::TypeDesc;
 
-/// Sample types as stored in the file and as given in memory.
-std::pair<TypeDesc, TypeDesc> types_of(PixelKind kind) {
-  switch (kind) {
-    case PixelKind::Float:
-      break;
-    case PixelKind::Half:
-      return {TypeDesc::HALF, TypeDesc::FLOAT};
-    case PixelKind::Uint8:
-      return {TypeDesc::UINT8, TypeDesc::UINT8};
-    case PixelKind::Uint16:
-      return {TypeDesc::UINT16, TypeDesc::UINT16};
-    case PixelKind::RawWords:
-      return {TypeDesc::UINT32, TypeDesc::UINT32};
-  }
-  return {TypeDesc::FLOAT, TypeDesc::FLOAT};
+TypeDesc type_of(PixelKind kind) {
+  return kind == PixelKind::Uint8 ? TypeDesc::UINT8 : kind == PixelKind::Uint16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
 }  // namespace
@@ -36,8 +22,8 @@ std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes) {
   try {
     auto output = OIIO::ImageOutput::create(picture.format);
     if (!output) return OIIO::geterror();
-    const auto [stored, given] = types_of(picture.kind);
-    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, stored);
+    const TypeDesc type = type_of(picture.kind);
+    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, type);
     spec.attribute("ImageDescription", metadata_lines(picture.metadata));
     spec.attribute("Software", picture.software);
     spec.attribute("DateTime", "");  // else OpenImageIO writes the current time, and equal pictures differ
@@ -45,7 +31,7 @@ std::string encode(const Encoding& picture, std::vector<unsigned char>& bytes) {
     spec.attribute("oiio:ColorSpace", picture.srgb ? "sRGB" : "Linear");
     OIIO::Filesystem::IOVecOutput memory(bytes);
     output->set_ioproxy(&memory);
-    if (output->open(picture.name, spec) && output->write_image(given, picture.samples) && output->close()) return {};
+    if (output->open(picture.name, spec) && output->write_image(type, picture.samples) && output->close()) return {};
     const std::string reason = output->geterror();
     return reason.empty() ? "no reason given" : reason;
   } catch (const std::exception& error) {  // thrown by an encoder

@@ -62,7 +62,7 @@ class Frame {
     return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
   }
 
-  /// Every sample is composited: there are no sums.
+  /// Every sample is composited, without sums.
   bool samples() const { return scene_.description.method == scene::Method::Westover; }
 
   void cut_sum(Values& sums) const {

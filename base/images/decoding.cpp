@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/images/image_channels.hpp"
+#include "base/images/decoding.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <string_view>
 
 namespace fastsplat::images {
+
+void check_size(std::int64_t width, std::int64_t height, std::int64_t channels) {
+  constexpr std::int64_t kLargestSide = 1 << 16, kMostValues = std::int64_t{1} << 31;
+  const std::string got = std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(channels);
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+    throw Refused("unsupported image size", "sides of 1 to " + std::to_string(kLargestSide), got);
+  if (width * height * channels > kMostValues) throw Refused("image too large", "at most 2^31 values", got);
+}
+
+void check_upright(int orientation) {
+  if (orientation == 1) return;
+  throw Refused("the image is stored rotated or mirrored: orientation " + std::to_string(orientation), "1", {},
+                "write it upright with oiiotool --reorient");
+}
 
 std::vector<std::size_t> channel_order(const std::vector<std::string>& names) {
   if (names.size() == 1) return {0};

@@ -277,7 +277,9 @@ TEST(OutputFormats, NameFilesWithoutTheirFolders) {
     const std::string text = format(results);
     EXPECT_FALSE(holds(text, "jane")) << text;
     EXPECT_TRUE(holds(text, "folder-3/compare.json")) << text;
-    if (format != to_csv) EXPECT_TRUE(holds(text, "fastsplat compare x.exr")) << text;
+    if (format != to_csv) {
+      EXPECT_TRUE(holds(text, "fastsplat compare x.exr")) << text;
+    }
     ++formats;
   }
   results[0].json["limits"] = Json::array({1});

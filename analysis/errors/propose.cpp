@@ -30,7 +30,7 @@ Journal::Entry Simulator::entry(const cmodel::Config& config, std::size_t scene,
   Journal::Entry entry;
   try {
     const Image image =
-        driver::to_image(driver::render(scenes_[scene], config, {.threads = threads_, .progress = {}}).frame);
+        driver::to_image(driver::render(scenes_[scene], config, {.threads = threads_, .counters = false}).frame);
     if (golden_[scene].data.empty())
       golden_[scene] = golden::render(scenes_[scene], {.threads = threads_, .progress = {}, .report = nullptr});
     entry = fidelity(golden_[scene], image, threads_);

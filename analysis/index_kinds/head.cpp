@@ -118,7 +118,7 @@ std::vector<HeadCell> head_table(const HeadScene& head, const HeadRange& range, 
   Parts parts(head.scene, threads);
   std::size_t done = 0;
   for (HeadCell& cell : cells) {
-    const auto drawn = driver::render(head.scene, cell.config, {.threads = threads, .progress = {}});
+    const auto drawn = driver::render(head.scene, cell.config, {.threads = threads, .counters = false});
     const Picture error = difference(picture_of(driver::to_image(drawn.frame)), reference);
     const Amount amount = amount_of(error);
     const double unit = lsb_per_unit(8);

@@ -32,10 +32,12 @@ class PixelSteps {
   golden::Sums out(const golden::Sums& pixel) const;
   /// (1-exp(-tau))/tau, of the table or real.
   double factor(double tau) const;
+  /// The sums, saturated by step sheet.
+  golden::Sums cut(const golden::Sums& sums) const;
+  /// Of saturated sums.
+  RealSlab slab(const golden::Sums& sums) const;
 
  private:
-  golden::Sums cut(const golden::Sums& sums) const;
-  RealSlab slab(const golden::Sums& sums) const;
   bool frozen(double transmittance) const { return transmittance < freeze_below_; }
 
   bool xray_, additive_;

@@ -38,6 +38,17 @@ SplatList::SplatList(const scene::Scene& scene) {
   if (densities) order_densities(*scene.volume);
 }
 
+SplatList SplatList::part(std::span<const std::uint32_t> which) const {
+  SplatList out;
+  out.rows = rows;
+  out.columns = columns;
+  for (const std::uint32_t i : which) {
+    out.splats.push_back(splats[i]);
+    out.lines.push_back(lines[i]);
+  }
+  return out;
+}
+
 void SplatList::order_densities(const volume::Volume& volume) {
   const auto voxel_of = [&](const scene::Splat& splat) {
     // Positions are floats, far nearer to their voxel than to any other.

@@ -54,7 +54,10 @@ struct Staged {
 /// The splats of a scene in golden's order within a nearest sheet: traversal order, densities in memory order. Each has
 /// the line of voxels on which it lies (scene::Traversal).
 struct SplatList {
+  SplatList() = default;
   explicit SplatList(const scene::Scene& scene);
+  /// These splats of the list, which holds colours.
+  SplatList part(std::span<const std::uint32_t> which) const;
   std::vector<scene::Splat> splats;
   std::vector<std::uint32_t> lines;
   int rows = 0, columns = 0;

@@ -162,6 +162,7 @@ void WeightSteps::add_row(int y, int x, int count, Entries entries, const Mixtur
   while (begin < end && !(entries(begin) < entries_)) ++begin;
   while (begin < end && !(entries(end - 1) < entries_)) --end;
   if (begin == end) return;
+  if (followed_x_ && *followed_x_ >= x + begin && *followed_x_ < x + end) followed_entries_ = entries(*followed_x_ - x);
   spans_.push_back({y, x + begin, end - begin, own_.size()});
   for (int i = begin; i < end; ++i) own_.push_back(weight(entries(i), mixture));
 }
@@ -179,6 +180,8 @@ void WeightSteps::rasterise_other(const StagedSplat& splat, const Mixture& mixtu
     int begin = box.x1, end = box.x0;
     for (int x = box.x0; x < box.x1; ++x) {
       own_.push_back(other_weight(x - splat.x, y - splat.y, rim_, mixture));
+      if (followed_x_ == x && config_.index() != IndexKind::Blit2d && config_.index() != IndexKind::Separable)
+        followed_entries_ = computed(x - splat.x, y - splat.y, rim_, mixture.device(Step::Distance));
       if (own_.back() > 0.0) begin = std::min(begin, x), end = x + 1;
     }
     if (begin < end) spans_.push_back({y, begin, end - begin, first + static_cast<std::size_t>(begin - box.x0)});
@@ -190,12 +193,21 @@ void WeightSteps::rasterise(const StagedSplat& splat, const StagedShape* shape, 
   if (golden_units) return rasterise_golden(splat, shape, rows, width);
   spans_.clear();
   own_.clear();
+  followed_entries_.reset();
   if (shape != nullptr && shape->own) {
     rasterise_ellipse(splat, *shape, mixture, rows, width);
   } else {
     rasterise_circle(splat, mixture, rows, width);
   }
   weights_ = own_.data();
+}
+
+std::optional<WeightSteps::Followed> WeightSteps::followed() const {
+  for (const auto& span : spans_) {
+    if (*followed_x_ >= span.x && *followed_x_ < span.x + span.width)
+      return Followed{followed_entries_, weights(span)[static_cast<std::size_t>(*followed_x_ - span.x)]};
+  }
+  return std::nullopt;
 }
 
 void WeightSteps::rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width) {

@@ -2,6 +2,7 @@
 // The steps from a splat's position to the weights of its pixels: distance, index, weight.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,16 @@ class WeightSteps {
   /// frame without ellipses.
   void rasterise(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture, bool golden_units,
                  golden::Rows rows, int width);
+
+  /// What the last splat has at the followed pixel.
+  struct Followed {
+    std::optional<double> entries;  ///< distance in radial table entries, as for weight(); some kinds have none
+    double weight = 0.0;
+  };
+  /// From now on follows column x of the rows that are rasterised, which must be one row.
+  void follow(int x) { followed_x_ = x; }
+  /// Empty if the splat has no weight there.
+  std::optional<Followed> followed() const;
 
   const std::vector<golden::Footprint::Span>& spans() const { return spans_; }
   std::span<const double> weights(const golden::Footprint::Span& span) const {
@@ -80,6 +91,8 @@ class WeightSteps {
   std::vector<golden::Footprint::Span> spans_;
   std::vector<double> across_, down_, own_;
   const double* weights_ = nullptr;
+  std::optional<int> followed_x_;
+  std::optional<double> followed_entries_;
 };
 
 }  // namespace fastsplat::stages

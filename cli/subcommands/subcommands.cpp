@@ -20,6 +20,7 @@ const std::vector<Subcommand>& all_subcommands() {
       subcommands::errors_bound,
       subcommands::errors_ranges,
       subcommands::errors_propose,
+      subcommands::pixel,
       {"config", "list, show, check and compare hardware configurations", nullptr},
       subcommands::config_list,
       subcommands::config_show,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// fastsplat errors ranges and errors propose as a user runs them: their output, files and refusals.
+// fastsplat errors ranges, errors propose and pixel as a user runs them: their output, files and refusals.
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "base/images/image_file.hpp"
 #include "tests/cli/words_helper.hpp"
 #include "tests/paths.hpp"
 #include "tests/process/process_helper.hpp"
@@ -144,6 +145,39 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(kRanges, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kRanges, with(kSmall, {"--method", "raycast"})), 2, {"raycast"});
   refused(with(kRanges, with(kSmall, {"--config", "bose"})), 2, {"bose", "base"});
+}
+
+// The words are those of `render --raw`; every sheet, splat and step of the pixel is in the JSON.
+TEST(Pixel, AgreesWithThePicture) {
+  const TempFolder folder;
+  const Words device{"--config", "tiny", "--quiet"};
+  const auto pixel = fastsplat(with({"pixel", "9,11", "--json", folder / "p.json"}, with(kSmall, device)));
+  expect_success(pixel);
+  const Json json = Json::parse(read_bytes(folder / "p.json"));
+  EXPECT_EQ(json.at("schema"), "fastsplat.pixel/1");
+  expect_success(fastsplat(with({"render", "--engine", "cmodel", "-o", folder / "a.exr"}, with(kSmall, device))));
+  const auto picture = images::read_image(folder / "a.exr").image;
+  int compared = 0;
+  for (const char* channel : {"R", "G", "B", "A"}) {
+    EXPECT_EQ(json.at("pixel").at(channel).at("device").get<float>(), picture.pixel(9, 11)[compared]) << channel;
+    ++compared;
+  }
+  double sum = 0.0;
+  for (const Json& step : json.at("steps")) sum += step.at("error_lsb8")[3].get<double>();
+  EXPECT_NEAR(sum, json.at("error_lsb8")[3].get<double>(), 1e-12);
+  std::printf("[figure] channels %d, splats %zu, sheets %zu\n", compared, json.at("splats").size(),
+              json.at("sheets").size());
+  EXPECT_GT(json.at("splats").size(), 3U);
+  EXPECT_GT(json.at("sheets").size(), 3U);
+}
+
+TEST(Pixel, RefusesWhatIsNoPixel) {
+  for (const auto& [place, line] : {std::pair{"12", "expected X,Y, two whole numbers, got '12'"},
+                                    {"1.5,2", "expected X,Y, two whole numbers, got '1.5,2'"},
+                                    {"24,0", "expected 0,0 to 23,23, got 24,0"}}) {
+    const auto result = fastsplat(with({"pixel", place, "--config", "tiny"}, kSmall));
+    expect_error(result, 2, {line});
+  }
 }
 
 }  // namespace

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// fastsplat pixel: how one pixel comes about, device beside real.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/errors/pixel_report.hpp"
+#include "base/number_text.hpp"
+#include "cli/config_flags.hpp"
+#include "cli/errors_output.hpp"
+#include "cli/output.hpp"
+#include "cli/output_names.hpp"
+#include "cli/scene_flags.hpp"
+#include "cli/subcommands/subcommands.hpp"
+#include "cli/volume_json.hpp"
+
+namespace fastsplat::cli {
+namespace {
+
+struct PixelArguments {
+  Common common;
+  std::string at;  ///< "X,Y"
+  SceneFlags scene;
+  ConfigFlags config;
+  int lsb_bits = 8;
+  bool all = false;
+  std::optional<int> sheet;
+};
+
+std::optional<int> coordinate(std::string_view text) {
+  const auto number = number_from(text);
+  return number && *number == std::floor(*number) && std::abs(*number) < 1e6 ? std::optional(static_cast<int>(*number))
+                                                                             : std::nullopt;
+}
+
+glm::ivec2 place_of(const std::string& text) {
+  const auto comma = text.find(',');
+  const auto x = coordinate(std::string_view(text).substr(0, comma));
+  const auto y = comma == std::string::npos ? std::nullopt : coordinate(std::string_view(text).substr(comma + 1));
+  if (!x || !y) {
+    throw_usage({.where = "pixel",
+                 .what = "not a pixel",
+                 .expected = "X,Y, two whole numbers",
+                 .got = "'" + text + "'",
+                 .fix = "for example 64,40: 0,0 is the picture's top left"});
+  }
+  return {*x, *y};
+}
+
+ExitCode run(const PixelArguments& arguments) {
+  const Output output(arguments.common);
+  const glm::ivec2 at = place_of(arguments.at);
+  const cmodel::Config config = load(arguments.config);
+  describe(arguments.scene);
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raws = {},
+                 .others = {arguments.common.json},
+                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
+  const scene::Scene scene = build(arguments.scene);
+  output.remark(remarks(scene));
+  const stages::Chain chain(scene, config);
+  const analysis::PixelReport report = analysis::explain(chain, at.x, at.y, arguments.common.threads);
+  output.line(errors_heading(summary(scene), config) +
+              analysis::to_text(report, chain, {.all = arguments.all, .sheet = arguments.sheet}, arguments.lsb_bits));
+  auto json = errors_identity("pixel", summary(scene), config);
+  json.update(analysis::to_json(report, chain));
+  output.json(json);
+  return ExitCode::Pass;
+}
+
+void declare(Options& options, PixelArguments& to) {
+  options.positional("PIXEL", to.at, "X,Y in pixels; 0,0 is the top left");
+  options.only_values([] { return std::vector<std::string>{}; });
+  declare(options, to.scene);
+  options.group("Device");
+  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  options.group("Output");
+  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.flag("--all", to.all, "show the splats of every sheet, not only of the one in which the error grows most");
+  options.integer("--sheet", to.sheet, 0, 65535, "N", "show the splats of this sheet");
+  declare(options, to.common);
+  options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config base",
+                  "the pixel sheet by sheet, and the splats of its worst sheet");
+  options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config tiny --json pixel.json",
+                  "every sheet and splat, as JSON");
+}
+
+}  // namespace
+
+const Subcommand subcommands::pixel{"pixel", "follow one pixel: every splat, sheet and word, device beside real",
+                                    subcommand<PixelArguments, declare, run>};
+
+}  // namespace fastsplat::cli

@@ -82,10 +82,10 @@ std::string toml_string(const std::string& text) {
 
 TomlTable open_scene(const fs::path& path) {
   const std::string text = path.string();
-  if (!text.starts_with(kDemoPrefix)) return TomlTable::parse_file(path);
+  if (!text.starts_with(kDemoPrefix)) return TomlTable::parse_file(path, TomlKind::Scene);
   const std::string name = text.substr(kDemoPrefix.size());
   for (const auto& demo : demos()) {
-    if (demo.name == name) return TomlTable::parse(demo.text, text);
+    if (demo.name == name) return TomlTable::parse(demo.text, text, TomlKind::Scene);
   }
   throw_usage({.where = {},
                .what = "unknown demo scene '" + name + "'",

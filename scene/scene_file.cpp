@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene.toml: every key is optional; absent keys keep their defaults. The keys are those of scene/settings_list.cpp.
-// This file adds the ones that are more than a plain setting: volume and transfer_function (relative to the file),
-// nan_as (or none), image.size for width and height, kernel.name in place of its a and radius. A table [sequence]
-// (scene/sequence.cpp) must be valid but does not change the still.
+// This file adds the keys that are not plain settings: volume and transfer_function (relative to the file), nan_as,
+// image.size for width and height, and kernel.name in place of a and radius. A table [sequence] (scene/sequence.cpp)
+// must be valid but does not change the still.
 #include "scene/scene_file.hpp"
 
 #include <fmt/format.h>

@@ -52,14 +52,15 @@ double lsb_per_unit(int bits) { return std::ldexp(1.0, bits) - 1.0; }
 
 void check_comparable(const Image& ref, const Image& test, const CompareOptions& options) {
   check_options(options);
-  if (ref.width != test.width || ref.height != test.height || ref.channels != test.channels) {
-    throw UserError(ExitCode::NotComparable, {.where = {},
-                                              .what = "REF and TEST differ in size or channels",
-                                              .expected = shape(ref),
-                                              .got = shape(test),
-                                              .fix = ref.width == test.width && ref.height == test.height
-                                                         ? "give both images the same channels (oiiotool --ch)"
-                                                         : "render both images at the same size"});
+  const bool same_size = ref.width == test.width && ref.height == test.height;
+  if (!same_size || ref.channels != test.channels) {
+    throw UserError(ExitCode::NotComparable,
+                    {.where = {},
+                     .what = same_size ? "REF and TEST differ in channels" : "REF and TEST differ in size",
+                     .expected = shape(ref),
+                     .got = shape(test),
+                     .fix = same_size ? "give both images the same channels (oiiotool --ch)"
+                                      : "render both images at the same size"});
   }
   assert(ref.data.size() == static_cast<std::size_t>(ref.width) * ref.height * ref.channels);
   assert(test.data.size() == ref.data.size());

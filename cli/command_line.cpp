@@ -117,6 +117,19 @@ std::vector<std::string> flag_names(const CLI::App& subcommand) {
   misused(called(subcommand), what, fix);
 }
 
+/// "give it with --scene or --config": the flags of `subcommand` that take files with the ending of `word`; else empty.
+std::string flags_for(const CLI::App& subcommand, const std::string& word) {
+  static constexpr std::pair<std::string_view, const char*> kTakes[] = {
+      {".toml", "--scene"}, {".toml", "--config"},   {".toml", "--tf"},     {".nii", "--volume"},
+      {".gz", "--volume"},  {".nrrd", "--volume"},   {".nhdr", "--volume"}, {".mha", "--volume"},
+      {".mhd", "--volume"}, {".ply", "--gaussians"}, {".fss", "--stream"}};
+  std::vector<std::string> flags;
+  for (const auto& [ending, flag] : kTakes) {
+    if (word.ends_with(ending) && subcommand.get_option_no_throw(flag) != nullptr) flags.emplace_back(flag);
+  }
+  return flags.empty() ? "" : fmt::format("give it with {}", fmt::join(flags, " or "));
+}
+
 // Finds the subcommand that `words` name, starting at `app`; `at` becomes the index of the first remaining word.
 CLI::App* find_subcommand(CLI::App& app, const std::vector<std::string>& words, std::size_t& at) {
   CLI::App* subcommand = &app;
@@ -225,7 +238,8 @@ Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& s
     subcommand->parse(reversed);
   } catch (const CLI::ExtrasError&) {
     const auto extra = subcommand->remaining(true);
-    misused(name, fmt::format("unexpected '{}' after `{}`", extra.empty() ? "?" : extra.front(), name));
+    const std::string first = extra.empty() ? "?" : extra.front();
+    misused(name, fmt::format("unexpected '{}' after `{}`", first, name), flags_for(*subcommand, first));
   } catch (const CLI::RequiredError& error) {
     misused(name, fmt::format("{}: {}", name, error.what()));
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bump mapping per pixel (Blinn 1978, on a solid pattern; splatting.md section 2 item 12;
-// docs/techniques/bump-mapping.md): the normal leans with the pattern's slope along the surface,
+// Bump mapping per pixel (Blinn 1978) on a solid pattern; docs/techniques/bump-mapping.md. The normal leans with the
+// pattern's slope along the surface,
 //     n' = normalize(n + amplitude (grad B - (grad B . n) n)),   B(x) = pattern(x / scale), grad by x / scale.
 #pragma once
 

@@ -18,9 +18,10 @@ struct DensityField {
   std::size_t skipped = 0;  ///< voxels above the base that cannot affect a pixel
 };
 
-/// All voxels that can affect a pixel: those above the base, except in clear bricks. Around a clear brick, as far as
-/// any pixel's density and gradient reach, the reconstructed values stay within base + (1+ripple) * [0, largest -
-/// base], where the transfer function is transparent. Skipping clear bricks changes no bit. `skip` = false keeps them.
+/// All voxels that can affect a pixel: those above the base, except in clear bricks. A brick is clear if the
+/// reconstructed values stay within base + (1+ripple) * [0, largest - base] around it and the transfer function is
+/// transparent there. "Around" is as far as any pixel's density and gradient reach. Skipping clear bricks changes no
+/// bit. `skip` = false keeps them.
 DensityField collect_densities(const scene::Scene& scene, bool skip = true);
 
 }  // namespace fastsplat::golden

@@ -11,8 +11,8 @@
 
 namespace fastsplat::golden {
 
-/// Order of Gaussians in depth: sorted once by the depth of their centres, as common renderers and the device do, or
-/// sorted at every pixel by the depth at which each Gaussian is densest there.
+/// Order of Gaussians in depth. Centres: sorted once by the depth of their centres, as common renderers and the device
+/// do. Pixels: sorted at every pixel by the depth at which each Gaussian is densest there.
 enum class GaussianOrder { Centres, Pixels };
 
 struct GaussianOptions {

@@ -18,8 +18,8 @@ struct Result {
   std::string shown = {};      ///< its name in a report, without folders; empty: `file`
 };
 
-/// Reads a --json result. UserError (Input), in one line that names the file, if it is missing, truncated, not JSON,
-/// not written by fastsplat, or of a subcommand without a report, or if it lacks figures.
+/// Reads a --json result. UserError (Input) names the file if it is missing, truncated, not JSON or not written by
+/// fastsplat. So it does for a subcommand without a report, and for missing figures.
 Result read_result(const std::filesystem::path& file);
 
 /// Subcommands that have reports, sorted.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene.toml: every key is optional; absent keys keep their defaults. The keys are those of scene/settings_list.cpp.
-// This file adds the ones that are more than a plain setting: volume and transfer_function (relative to the file),
-// nan_as (or none), image.size for width and height, kernel.name in place of its a and radius. A table [sequence]
-// (scene/sequence.cpp) must be valid but does not change the still.
+// This file adds the keys that are not plain settings: volume and transfer_function (relative to the file), nan_as,
+// image.size for width and height, and kernel.name in place of a and radius. A table [sequence] (scene/sequence.cpp)
+// must be valid but does not change the still.
 #include "scene/scene_file.hpp"
 
 #include <fmt/format.h>
@@ -82,10 +82,10 @@ std::string toml_string(const std::string& text) {
 
 TomlTable open_scene(const fs::path& path) {
   const std::string text = path.string();
-  if (!text.starts_with(kDemoPrefix)) return TomlTable::parse_file(path);
+  if (!text.starts_with(kDemoPrefix)) return TomlTable::parse_file(path, TomlKind::Scene);
   const std::string name = text.substr(kDemoPrefix.size());
   for (const auto& demo : demos()) {
-    if (demo.name == name) return TomlTable::parse(demo.text, text);
+    if (demo.name == name) return TomlTable::parse(demo.text, text, TomlKind::Scene);
   }
   throw_usage({.where = {},
                .what = "unknown demo scene '" + name + "'",

@@ -37,16 +37,16 @@ struct TomlTable::Document {
 TomlTable::TomlTable(std::shared_ptr<const Document> document, const void* table, std::string path)
     : document_(std::move(document)), table_(table), path_(std::move(path)) {}
 
-TomlTable TomlTable::parse(const std::string& text, const std::string& source) {
+TomlTable TomlTable::parse(const std::string& text, const std::string& source, TomlKind kind) {
   auto document = std::make_shared<Document>();
   document->source = source;
-  document->root = parse_toml(text, source, "correct this line");
+  document->root = parse_toml(text, source, kind);
   const void* root = &document->root;
   return TomlTable(std::move(document), root, {});
 }
 
-TomlTable TomlTable::parse_file(const std::filesystem::path& path) {
-  return parse(read_text_file(path), path.string());
+TomlTable TomlTable::parse_file(const std::filesystem::path& path, TomlKind kind) {
+  return parse(read_text_file(path), path.string(), kind);
 }
 
 const void* TomlTable::find(const std::string& key) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/toml_kind.hpp"
+
 namespace fastsplat::scene {
 
 /// One table of a TOML document. Read the known keys, then call finish(): unread keys are refused.
@@ -17,8 +19,8 @@ namespace fastsplat::scene {
 class TomlTable {
  public:
   /// `source` names the document in messages.
-  static TomlTable parse(const std::string& text, const std::string& source);
-  static TomlTable parse_file(const std::filesystem::path& path);
+  static TomlTable parse(const std::string& text, const std::string& source, TomlKind kind);
+  static TomlTable parse_file(const std::filesystem::path& path, TomlKind kind);
 
   bool has(const std::string& key) const;
 

@@ -102,7 +102,8 @@ TransferFunction read(TomlTable table, const std::string& name) {
 
 TransferFunction load_transfer_function(const std::string& name_or_path) {
   for (const auto& preset : presets()) {
-    if (preset.name == name_or_path) return read(TomlTable::parse(preset.text, "preset " + preset.name), preset.name);
+    if (preset.name == name_or_path)
+      return read(TomlTable::parse(preset.text, "preset " + preset.name, TomlKind::TransferFunction), preset.name);
   }
   const std::filesystem::path path = name_or_path;
   std::error_code error;
@@ -115,7 +116,7 @@ TransferFunction load_transfer_function(const std::string& name_or_path) {
                  .got = {},
                  .fix = suggestion(name_or_path, transfer_function_presets())});
   }
-  return read(TomlTable::parse_file(path), name_or_path);
+  return read(TomlTable::parse_file(path, TomlKind::TransferFunction), name_or_path);
 }
 
 std::vector<std::string> transfer_function_presets() {

@@ -131,7 +131,7 @@ Lost uniform_loss(Rounding rounding, int dropped) {
   const double step = std::ldexp(1.0, -dropped);  // of a value, in the word's last place
   const double spread = (1.0 - step * step) / 12.0;
   const double mean = rounding == Rounding::TRN ? -0.5 * (1.0 - step) : rounding == Rounding::RND ? 0.5 * step : 0.0;
-  // Halves to even: of the two ties, that of an even word goes down and that of an odd one up; all else as half up.
+  // Halves to even: a tie above an even word goes down, a tie above an odd word up. All else is as half up.
   const double squares = rounding == Rounding::RND_CONV ? spread + 0.25 * step * step : spread + mean * mean;
   return {mean, std::sqrt(squares)};
 }

@@ -116,7 +116,7 @@ class Maker {
                      .what = "too many cases",
                      .expected = fmt::format("at most {}", kMostCases),
                      .got = {},
-                     .fix = "split it into several specifications"});
+                     .fix = "split the specification"});
       }
     }
     return cases;

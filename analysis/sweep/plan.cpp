@@ -185,7 +185,8 @@ Plan read_plan(const std::filesystem::path& path) {
   return from_json_file<Json>(path,
                               {.what = "not a plan",
                                .expected = "a file written by `fastsplat plan make`",
-                               .fix = "make the plan again from its specification",
+                               .fix = path.extension() == ".toml" ? "make a plan of it with 'fastsplat plan make'"
+                                                                  : "make the plan again from its specification",
                                .most_bytes = kMostPlanBytes},
                               plan_from);
 }

@@ -30,8 +30,7 @@ class Reader {
   explicit Reader(std::filesystem::path path) : path_(std::move(path)) {}
 
   Spec read() {
-    const toml::table root =
-        parse_toml(read_text_file(path_), path_.string(), "see docs/plan.md and the examples in configs/plans/");
+    const toml::table root = parse_toml(read_text_file(path_), path_.string(), TomlKind::Plan);
     for (const auto& [key, node] : root) {
       const std::string name(key.str());
       if (std::ranges::find(kKeys, name) != std::end(kKeys)) continue;

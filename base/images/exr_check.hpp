@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the attributes of an EXR lie within its bytes, before OpenEXR reads it: OpenEXR allocates each declared
-// length before reading, so that a file of a kilobyte could cost two gigabytes.
+// Checks that the attributes of an EXR lie within its bytes, before OpenEXR reads it. OpenEXR allocates each declared
+// length before it reads: a file of a kilobyte could cost two gigabytes.
 #pragma once
 
 #include <span>

@@ -136,7 +136,7 @@ void declare(Options& options, PlanParetoArguments& to) {
   options.required("--x", to.x, "METRIC", "a metric, with - before it if less is better, + if more is better");
   options.required("--y", to.y, "METRIC", "another");
   options.group("Output");
-  options.flag("--beaten", to.beaten, "list dominated rows too, and by which row they are dominated");
+  options.flag("--beaten", to.beaten, "also list dominated rows, each with a row that dominates it");
   options.flag("--markdown", to.markdown, "print Markdown tables");
   declare(options, to.common);
   options.example("fastsplat plan pareto merged.json --x cost --y psnr_db", "the cases that no other case dominates");

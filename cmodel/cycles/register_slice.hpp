@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a register slice takes and offers transfers (rtl/io/fastsplat_slice.sv), computed from the transfers alone: it
-// holds two, the front one and a spare, and both its valid and its ready come from registers.
+// When a register slice takes and offers transfers (rtl/io/fastsplat_slice.sv), computed from the transfers alone. It
+// holds two: the front one and a spare. Its valid and its ready both come from registers.
 #pragma once
 
 #include <algorithm>

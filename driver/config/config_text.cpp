@@ -67,11 +67,12 @@ void take(const std::string& file, const toml::node& node, const std::string& na
   } else {
     const cmodel::ConfigKey* key = cmodel::find_key(name);
     if (key == nullptr) {
+      const std::string meant = did_you_mean(name, key_names());
       throw_input({.where = place(file, node.source()),
                    .what = fmt::format("unknown key '{}'", name),
                    .expected = {},
                    .got = {},
-                   .fix = suggestion(name, key_names())});
+                   .fix = meant.empty() ? "'fastsplat config show base' prints all keys" : meant});
     }
     if (auto wrong = cmodel::set(config, name, value_text(file, node, *key))) {
       wrong->where = place(file, node.source());
@@ -84,7 +85,7 @@ void take(const std::string& file, const toml::node& node, const std::string& na
 }  // namespace
 
 cmodel::Config parse_config(const std::string& file, const std::string& text) {
-  const toml::table root = parse_toml(text, file, "compare with the output of 'fastsplat config show base'");
+  const toml::table root = parse_toml(text, file, TomlKind::Configuration);
   cmodel::Config config;
   std::vector<std::string> seen;
   for (const auto& [name, node] : root) {

@@ -17,7 +17,7 @@ struct Layer {
 
 /// Exponential: the layer's material is mixed evenly over its depth and dims itself,
 ///     alpha = 1 - exp(-tau),   colour = C (1 - exp(-tau)) / tau,
-/// the exact integral for constant emission and extinction, hence an error of second order in the layer's depth.
+/// the exact integral for constant emission and extinction. Its error is of second order in the layer's depth.
 /// Additive: alpha = min(1, tau), colour = min(1, C), as in the papers; first order.
 inline Layer make_layer(const Sums& sums, scene::SlabOpacity opacity) {
   const double tau = sums[3];

@@ -11,8 +11,8 @@ namespace fastsplat::golden {
 // The canonical radius of an ellipse with shape S, by completing the square along a row:
 //     q = A dx^2 + B dx dy + C dy^2 = (aspect * (dx - slope*dy)^2 + dy^2) / yy,
 //     slope = xy/yy, aspect = yy^2/det,
-// and a row's pixels lie around slope*dy. For a circle slope is 0 and aspect 1: every operation is then that of
-// q = (dx^2 + dy^2) / radius^2, bit for bit.
+// A row's pixels lie around slope*dy. A circle has slope 0 and aspect 1, and gives q = (dx^2 + dy^2) / radius^2, bit
+// for bit.
 void Footprint::rasterise(const scene::Kernel& kernel, const ProjectedSplat& splat, Rows rows, int image_width) {
   spans_.clear();
   std::size_t used = 0;

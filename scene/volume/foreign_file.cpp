@@ -76,6 +76,7 @@ std::string way_to_read(const fs::path& path) {
   if (const Format* format = format_of(path)) return format->way;
   const RawName raw = raw_name(path);
   const std::string ending = ending_of(path);
+  if (ending == ".toml") return "give a scene with --scene, a transfer function with --tf";
   if (ending == ".img" || path.string().ends_with(".img.gz"))
     return "the voxels of a NIfTI pair need their header: put the .hdr beside it";
   if (!raw.sized && ending != ".raw" && ending != ".bin" && ending != ".dat" && ending != ".vol")

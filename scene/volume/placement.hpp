@@ -19,9 +19,9 @@ struct Placement {
 /// Whether the three vectors span space; false also if one is not a number.
 bool spans_space(const std::array<glm::dvec3, 3>& direction);
 
-/// Turns whole axes of `volume`, which is in the file's axes, so that x, y and z point as nearly as possible to the
-/// right, to the front and upwards. Volume::axes holds the remaining rotation; angles below 0.006 degrees count as 0.
-/// Voxels may be missing.
+/// Turns whole axes of `volume` from the file's: x, y and z then point as nearly as possible to the right, to the front
+/// and upwards. Volume::axes holds the remaining rotation; angles below 0.006 degrees count as 0. Voxels may be
+/// missing.
 void place(Volume& volume, const Placement& placement);
 
 /// Degrees by which the axes are turned, and the axis; shear: the largest deviation of two of them from a right angle.

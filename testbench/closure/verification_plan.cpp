@@ -14,8 +14,8 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path)
-      : path_(path), root_(parse_toml(read_text_file(path), path.string(), "correct this line")) {}
+  Reader(const std::filesystem::path& path, TomlKind kind)
+      : path_(path), root_(parse_toml(read_text_file(path), path.string(), kind)) {}
 
   /// The tables of the file's only key, an array of tables.
   std::vector<const toml::table*> tables(const char* name) const {
@@ -70,7 +70,7 @@ class Reader {
 }  // namespace
 
 VerificationPlan read_plan(const std::filesystem::path& path) {
-  const Reader reader(path);
+  const Reader reader(path, TomlKind::VerificationPlan);
   VerificationPlan plan;
   for (const toml::table* table : reader.tables("testpoint")) {
     reader.only(*table, {"name", "proves", "campaigns", "tests", "bins", "configs", "assertions", "faults"});
@@ -107,7 +107,7 @@ bool matches(const std::string& pattern, const std::string& text) {
 }
 
 std::vector<LineExclusion> read_exclusions(const std::filesystem::path& path) {
-  const Reader reader(path);
+  const Reader reader(path, TomlKind::Exclusions);
   std::vector<LineExclusion> out;
   for (const toml::table* table : reader.tables("exclusion")) {
     reader.only(*table, {"file", "line", "kind", "reason"});

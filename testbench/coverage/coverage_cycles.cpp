@@ -23,8 +23,8 @@ constexpr std::uint64_t kLeastSwap = 3;
 std::uint64_t path_delay(const cmodel::Config& config) {
   return cmodel::stages::splat_delay(config) + cmodel::stages::weight_delay(config);
 }
-/// The most windows that a sheet can issue before the walk of the one before begins: a walk that is late because of an
-/// earlier one holds back the sheet's own begin_sheet as well.
+/// The most windows that a sheet can issue before the walk of the previous sheet begins. An earlier walk that delays
+/// this walk also delays the sheet's own begin_sheet.
 std::uint64_t walk_begins(const cmodel::Config& config) { return path_delay(config) + cmodel::stages::kWalk - 2; }
 constexpr std::uint64_t kWalkEnds = 16;
 constexpr std::uint64_t kSheetSizes = 41;

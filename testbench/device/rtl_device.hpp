@@ -99,8 +99,7 @@ void require_rtl(const cmodel::Config& config, const std::vector<RtlAbilities>& 
 
 /// The RTL of the configuration, under any name; built if needed (rtl_module.hpp). Throws as require_rtl(), and
 /// UserError (Simulation) if the configuration hash in the device's registers is not `config`'s. While the device runs,
-/// UserError (Simulation) reports that it hangs, that it refused the stream, or which assertion of the RTL failed,
-/// where and in which cycle.
+/// UserError (Simulation) reports a hang, a refused stream, or a failed assertion of the RTL with its place and cycle.
 std::unique_ptr<RtlDevice> make_rtl_device(const cmodel::Config& config, cmodel::PixelSink& pixels,
                                            const RtlOptions& options = {});
 

@@ -99,8 +99,8 @@ bool Frames::bad(const std::string& what, const Beats& beats, const Refused& exp
   check_.equal(what + ": refused", 1, refusal ? 1 : 0, bin);
   if (refusal) check_.equal(what + ": checked in cycle", checker_->checked_at(refusal->taken), refusal->checked, bin);
   const Closers closers = closers_of(before);
-  // The device's own end records lie where the refused beat lay, a cycle later: as if check had taken them in the cycle
-  // before the verdict.
+  // The device's own end records lie where the refused beat lay, a cycle later. So check seems to take them in the
+  // cycle before the verdict.
   if (refusal) source_.pause(0, refusal->checked - (device_->sliced() ? 2 : 1));
   for (const auto& beat : closers.beats) checker_->accept(beat);
   const auto opcode = static_cast<std::uint32_t>(get(beats[expected.beat], cmodel::layout::kOpcode));

@@ -63,8 +63,8 @@ void refuse_writes(const Config& config, Frames& frames, const Beats& beats, Che
   }
 }
 
-/// Read in the cycle after begin_frame was taken, when it lies in check, and in those after, in which it passes the
-/// test unit where there is one.
+/// Read in the cycle after begin_frame was taken, when it lies in check. Then read in the next cycles, in which it
+/// passes the test unit if there is one.
 void be_busy_while_judging(const Config& config, Frames& frames, const Beats& beats, Check& check) {
   const auto bin = check.bin("refusal", kMidFrameBins[1]);
   for (int later = 0; later < (config.culls() ? 2 + static_cast<int>(stages::kCullStages) : 2); ++later) {

@@ -132,8 +132,8 @@ cmodel::LoadTable random_density_table(const cmodel::Config& config, Random& ran
     } else {
       value = any_word(random, range.most);
     }
-    // A last beat that looks like a record, because it may still be there when the table has ended: in SHEETS like the
-    // header of a table without words, in others like begin_frame.
+    // A last beat that looks like a record, as it may still be there when the table has ended. In SHEETS it looks like
+    // the header of a table without words, in other tables like begin_frame.
     if (value % 4 < 2 && i == last_beat && range.least >= 0) value = sheets ? kLooksLikeSheets : kLooksLikeFrame;
     if (sheets && i == last_beat + 3) value = 0;
     out.words.push_back(word(value));

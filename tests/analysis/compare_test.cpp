@@ -123,8 +123,9 @@ OIIO::ImageBuf buffer_of(const Image& image) {
 }
 
 TEST(Compare, AgreesWithOpenImageIO) {
-  // OpenImageIO subtracts in float: each error is off by at most 2^-24 of itself, hence every mean of errors or of
-  // squares by 2^-24 or 2^-23 of itself, and PSNR by 20/ln(10) * 2^-24 dB; doubled for the sums' own rounding.
+  // OpenImageIO subtracts in float: each error is off by at most 2^-24 of itself. A mean of errors is then off by 2^-24
+  // of itself, one of squares by 2^-23, and PSNR by 20/ln(10) * 2^-24 dB. The limits are doubled for the sums' own
+  // rounding.
   constexpr double kRelative = 0x1p-22;
   constexpr double kDecibel = 2 * 8.686 * 0x1p-24;
   double worst = 0;
@@ -357,7 +358,7 @@ TEST(Compare, HistogramCountsEverythingOnce) {
 
 TEST(Compare, RefusesWhatIsNotComparable) {
   const auto message = images::refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 4, 4)); });
-  EXPECT_THAT(message, HasSubstr("expected 4 x 3 x 4, got 4 x 4 x 4"));
+  EXPECT_THAT(message, HasSubstr("differ in size (expected 4 x 3 x 4, got 4 x 4 x 4)"));
   images::refusal(ExitCode::NotComparable, [] { compare(Image(4, 3, 4), Image(4, 3, 3)); });
   images::refusal(ExitCode::NotComparable, [] { lsb_map(Image(4, 3, 4), Image(3, 3, 4), {}); });
   images::refusal(ExitCode::Usage, [] { compare(Image(1, 1, 1), Image(1, 1, 1), {.lsb_bits = 0}); });

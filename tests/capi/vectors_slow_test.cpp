@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectors of a stream, read back by a small independent reader: the checksums hold, the beats are those of the
-// file, hex and JSON agree, and the pixel beats hold the pixels.
+// The vectors of a stream, read back by a small independent reader. The checksums hold, the beats equal the file's, hex
+// and JSON agree, and the pixel beats hold the pixels.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -86,6 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"flag_with_value", {"render", "--quiet=yes"}, {"--quiet does not take a value"}},
         Misuse{"positional_missing", {"compare", "a.exr"}, {"TEST is required"}},
         Misuse{"positional_extra", {"compare", "a", "b", "c"}, {"unexpected 'c'"}},
+        Misuse{"volume_without_flag", {"render", "a.nii.gz"}, {"unexpected 'a.nii.gz'", "give it with --volume"}},
+        Misuse{
+            "config_without_flag", {"verify", "a.toml"}, {"unexpected 'a.toml'", "give it with --scene or --config"}},
         Misuse{"required_flag_missing", {"stream", "record", "--volume", "shells:8"}, {"--out is required"}},
         Misuse{"help_on_nothing", {"help", "redner"}, {"did you mean 'render'"}},
         Misuse{"number_nan", {"render", "--azimuth", "nan"}, {"--azimuth", "'nan'"}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program once through: a picture from each engine, compared, and each kind of failure once. The *_slow tests go
-// deep.
+// Runs the program once: draws a picture with each engine, compares them, and provokes each kind of failure. The *_slow
+// tests go deep.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

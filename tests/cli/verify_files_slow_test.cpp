@@ -185,8 +185,8 @@ bool waveform_begun(const TempFolder& folder) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.ends_with(".hier"); });
 }
 
-// The signal goes to the program alone, as from `kill`: its waveform writer has to end with it, because the reader of
-// its stdout waits for that.
+// The signal goes to the program alone, as from `kill`. Its waveform writer must end with it, because the reader of its
+// stdout waits for that.
 TEST_F(VerifyFiles, OfAnInterruptedWaveformAreGone) {
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     here_.signal = signal;

@@ -9,8 +9,8 @@
 namespace fastsplat::test {
 namespace {
 
-/// P = 2, k = 2, one set of rho 2: E = Ea = 2, one window of 2 x 2 pixels, the first one at the centre's own pixel when
-/// the centre is whole (x0 = floor((2x - 2) / 2) + 1 = x). All RLUT words 0: every weight is RADIAL[0] = 127/64.
+/// P = 2, k = 2, one set of rho 2. So E = Ea = 2, and a splat has one window of 2 x 2 pixels. A whole centre lies in
+/// the window's first pixel: x0 = floor((2x - 2) / 2) + 1 = x. All RLUT words 0: every weight is RADIAL[0] = 127/64.
 oracle::Symbols by_hand() {
   oracle::Symbols c;
   c.P = 2, c.W = 4, c.H = 4;

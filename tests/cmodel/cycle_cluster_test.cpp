@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several devices on one link: one device counts as the cycle model; each of several counts as it would alone on its
-// tiles; all of them count as a second, clocked model (docs/scaling.md).
+// Several devices on one link (docs/scaling.md). One device counts as the cycle model does. Each of several counts as
+// it would alone on its tiles. All of them count as a second, clocked model does.
 #include "cmodel/cycles/cycle_cluster.hpp"
 
 #include <gtest/gtest.h>

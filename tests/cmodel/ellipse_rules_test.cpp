@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/stream.md, the rules of an ellipse record: each broken once is refused at its beat under its number, every bit
-// counts as the oracle says, and both sides of every edge of rule 18 are met (S-ellipse-4, S-ellipse-5, S-ellipse-6).
+// The rules of an ellipse record in docs/stream.md (S-ellipse-4, S-ellipse-5, S-ellipse-6). A record that breaks one is
+// refused at its beat with the rule's number. Every bit counts as in the oracle. Both sides of every edge of rule 18
+// occur.
 #include <gtest/gtest.h>
 
 #include <functional>

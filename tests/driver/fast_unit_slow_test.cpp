@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fast unit draws what the plain unit draws: words, counters and report of whole frames, over configurations,
-// methods, views, threads, heights of bands and every kind of vector instruction this processor has.
+// The fast unit gives the plain unit's words, counters and report for whole frames. Configurations, methods, views,
+// threads and heights of bands vary, and so do the vector instructions that this processor has.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Oblique grids are drawn in their place in the body: an object scanned by a pitched or sheared grid looks as if
-// scanned by a straight one, in every method of both engines, and shading uses the same surface.
+// Oblique grids are drawn in their place in the body. An object scanned by a pitched or sheared grid looks as if
+// scanned by a straight one, in every method of both engines. Shading uses the same surface.
 #include <cmath>
 #include <numbers>
 

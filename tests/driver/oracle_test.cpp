@@ -64,9 +64,9 @@ TEST(DriverOracle, RimsAtBothEndsOfTheSlabs) {
   EXPECT_GT(figures.met.rims_kept, 0U);
 }
 
-// N-8-64: slabs of one depth step each, or of three steps under splats at each third of them: every entry of the slice
-// table is in a record, also with an odd number of steps made even. (Steps so fine that slabs must have eleven: some
-// entries.)
+// N-8-64. Slabs have one depth step each, or three steps and splats at each third of them. Every entry of the slice
+// table occurs in a record, also with an odd number of steps made even. Where slabs must have eleven fine steps, some
+// entries occur.
 TEST(DriverOracle, EveryStepOfTheSliceTable) {
   OracleFigures figures;
   for (const auto& name : config_names()) {

@@ -71,10 +71,10 @@ Lsb8 measure(const SceneDescription& description, const cmodel::Config& config, 
   return apart;
 }
 
-// N-8-101, N-8-103: stripes of period L across nodes h apart lie within h^2 |f''| / 12 <= (2 pi h / L)^2 / 24 of the
-// lines, h along the stripes' direction, which three axes share. The second differences that level the nodes differ
-// from the second derivatives by 1/12 (2 pi h / L)^2 of them. N-8-96, N-8-97: the tables of densities follow those of
-// the radius sets, those of patterns all others.
+// N-8-101, N-8-103. Stripes of period L across nodes h apart lie within h^2 |f''| / 12 <= (2 pi h / L)^2 / 24 of the
+// lines. Here h is along the stripes' direction, which three axes share. The second differences that level the nodes
+// differ from the second derivatives by 1/12 (2 pi h / L)^2 of them. N-8-96, N-8-97: the tables of densities follow
+// those of the radius sets, those of patterns all others.
 TEST(PatternTables, ComeInTheirOrder) {
   for (const bool lit : {false, true}) {
     const auto view = post_view();

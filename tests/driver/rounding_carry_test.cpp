@@ -37,8 +37,8 @@ std::vector<std::uint32_t> words_of(const scene::Scene& scene, const cmodel::Con
   return render(scene, config, {.threads = threads, .progress = {}}).frame.words;
 }
 
-// N-8-59, N-8-60: a line's words as the sheets show them sum to its exact value, except for the rest at its end: less
-// than a word, plus the error of one word. The flat kernel in coarse sheets shows more than its value.
+// N-8-59, N-8-60. A line's words, as the sheets show them, sum to its exact value except for the rest at its end. That
+// is less than a word, plus the error of one word. The flat kernel in coarse sheets shows more than its value.
 TEST(RoundingCarry, ALineShowsItsEnergy) {
   int lines = 0;
   double worst = 0.0, most_over = 0.0, most_under = 0.0;

@@ -95,8 +95,8 @@ TEST(TexturedOnDevice, ASetIsAPictureOfARadius) {
   }
 }
 
-// N-4.4-7. The pictures of a cycle cancel out: at each place the sum of N words is N times the plain word, up to half a
-// word of rounding for each of them and for each plain one.
+// N-4.4-7. The pictures of a cycle cancel out: at each place the sum of N words is N times the plain word. Each of the
+// words, and each plain one, may be off by half a word of rounding.
 TEST(TexturedOnDevice, PicturesOfACycleCancelInTheTables) {
   const scene::Kernel kernel(2.0, 2.0);
   const scene::TexturedSplats textures({.phases = kPhases, .amplitude = 1.0, .frame = 0, .scale = 0.4}, kernel);

@@ -212,8 +212,8 @@ TEST(Knobs, StayWithinTheLimitsAndTakeCompanionsAlong) {
 
 TEST(Cost, CountsWhatTheRtlHas) {
   Config c = test::named_config("base");
-  // By hand for base: P = 8, W = H = 128, k = 64, 128 columns, nl + g + 1 = 17, N = 1024 of 15 bits, G = 256 of twice
-  // 17, sheets of 18 bits, a picture of 18.
+  // By hand for base: P = 8, W = H = 128, k = 64, 128 columns, nl + g + 1 = 17. Tables: N = 1024 of 15 bits, G = 256 of
+  // twice 17. Sheets and picture have 18 bits.
   EXPECT_EQ(cost(c).storage_bits, 2 * 128 * 64 * 17 + 64 * 1024 * 15 + 64 * 256 * 34 + 2 * 16384 * 72 + 16384 * 72);
   EXPECT_EQ(cost(c).multiplier_bits, 64 * (4 * 16 * 15 + 17 * 10 + 4 * 18 * 17 + 4 * 17 * 17));
   EXPECT_EQ(cost(c).adder_bits, 2 * 18 + 64 * (17 + 72) + 64 * (34 + 68) + 8 * 4 * 17);

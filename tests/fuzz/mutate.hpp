@@ -17,9 +17,9 @@ std::vector<Input> inputs_in(const std::filesystem::path& folder);
 /// limits, pieces left out, doubled, taken from another seed). At most 8192 bytes.
 Input mutated(const std::vector<Input>& seeds, std::uint64_t number);
 
-/// Structures on which text readers recurse or which they hold twice: long dotted keys and headers, deep arrays and
-/// tables of TOML and JSON, names and strings of a megabyte. Each comes after every first byte by which targets choose
-/// a reader.
+/// Structures on which text readers recurse, or which they hold twice. These are long dotted keys and headers, deep
+/// arrays and tables of TOML and JSON, and names and strings of a megabyte. Each comes after every first byte by which
+/// targets choose a reader.
 std::vector<Input> hard_texts();
 
 }  // namespace fastsplat::fuzz

@@ -184,8 +184,8 @@ TEST(Antialias, EnergyIsKept) {
   EXPECT_NEAR(total / extinction, 1.0, 0.029);
 }
 
-// A grown kernel is as deep as it is wide: the variance in depth of its shares is lambda^2 times that of the kernel (a
-// Gaussian cut at R), and a slab's own 1/12 of its width squared.
+// A grown kernel is as deep as it is wide. The variance in depth of its shares is lambda^2 times that of the kernel (a
+// Gaussian cut at R), plus 1/12 of the slab's width squared.
 TEST(Antialias, KernelsGrowInDepthToo) {
   Lattice lattice;
   lattice.dims = glm::ivec3(5);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every splatting technique against its definition (docs/golden.md, docs/techniques/), written a second time: without
-// bands, rings, spans or buckets, with the kernel's closed forms instead of scene::Kernel, a measured derivative of the
-// projection instead of a derived one, cameras that turn, and a lens with a focal length.
+// Every splatting technique against its definition (docs/golden.md, docs/techniques/), written a second time without
+// bands, rings, spans or buckets. It uses the kernel's closed forms instead of scene::Kernel, and a measured derivative
+// of the projection instead of a derived one. Its cameras turn, and its lens has a focal length.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -75,8 +75,8 @@ Flatness middle_of(const std::string& name) {
 TEST(DemoScenes, AddingAndCompositingOneLayer) {
   const Flatness added = middle_of("layer-adding");
   const Flatness composited = middle_of("layer-compositing");
-  // The footprints of a lattice add up to 1 in the mean, so a layer's opacity is one voxel's extinction, -ln(1-0.6),
-  // and its ripple that of the kernel's footprints: Poisson, 8 exp(-pi^2/a) peak to peak.
+  // The footprints of a lattice add up to 1 in the mean. So a layer's opacity is one voxel's extinction, -ln(1-0.6).
+  // Its ripple is that of the kernel's footprints, by Poisson 8 exp(-pi^2/a) peak to peak.
   const double opacity = -std::log(0.4);
   const double ripple = 8.0 * std::exp(-std::numbers::pi * std::numbers::pi / 2.0);
   figure("demo_layer_adding_opacity", added.mean, "0.916 +- 0.005");

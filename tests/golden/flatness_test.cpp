@@ -53,8 +53,8 @@ struct Range {
 
 constexpr int kPhases = 16;  // even: contains the phases 0 and 1/2 where the extremes lie
 
-/// The part of the lattice sum of an endless Gaussian of unit mean that the cut at R removes, over all phases: in 2-D
-/// the terms with |x| >= R; in 3-D those outside the cylinder |(x,y)| < R, |z| < R.
+/// The part of the lattice sum that the cut at R removes from an endless Gaussian of unit mean, over all phases. In 2-D
+/// these are the terms with |x| >= R, in 3-D the terms outside the cylinder |(x,y)| < R, |z| < R.
 Range cut_away(double a, double radius, int dimensions) {
   Range range;
   const double norm = std::pow(a / std::numbers::pi, 0.5 * dimensions);

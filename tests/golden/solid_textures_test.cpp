@@ -48,8 +48,8 @@ double wave_amplitude(const Image& image, double length) {
 }
 
 // N-8-18 at voxels, and N-8-106, N-8-107 for stripes. A stripe's tint is a wave of amplitude 0.4 about 0.6. At pixels
-// it must arrive whole for any voxel size. At voxels it is blurred by the kernel, whose spectrum is exp(-pi^2 (h/L)^2 /
-// a) for voxels of h and waves of L (its cut at R moves that by no more than exp(-a R^2)).
+// it must arrive whole for any voxel size. At voxels the kernel blurs it. For voxels of h and waves of L its spectrum
+// is exp(-pi^2 (h/L)^2 / a), which the cut at R moves by at most exp(-a R^2).
 TEST(SolidTexture, AtPixelsItDoesNotDependOnTheVoxels) {
   constexpr double kWave = 12.0;  // mm
   for (const double voxel : {1.0, 2.0, 4.0}) {

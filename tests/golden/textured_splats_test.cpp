@@ -114,8 +114,8 @@ TEST(TexturedSplats, MeanOverTheCycleIsThePlainSplat) {
     EXPECT_NE(image, plain);
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += image.data[i] / static_cast<double>(kPhases);
   }
-  // Sums are linear in the footprints. The remaining errors are one rounding to float in each picture, at most half an
-  // ulp of its own value, which is at most (1 + m) times the plain one; and that of the plain picture.
+  // Sums are linear in the footprints. The remaining errors are one rounding to float in each picture and one in the
+  // plain picture. Each is at most half an ulp of the value, which is at most (1 + m) times the plain one.
   double worst = 0.0;
   int compared = 0;
   for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -183,8 +183,8 @@ TEST(TexturedSplats, DetailRisesAndTheLowBandStays) {
   }
   level /= pixels;
 
-  // The low band's change, if splats' phases are independent: each splat adds m (G * F t_i), G the blur, and a pixel
-  // has as many of them as its ray passes voxels per square pixel.
+  // The low band's change if the splats' phases are independent. Each splat adds m (G * F t_i), with G the blur. A
+  // pixel has as many splats as its ray passes voxels per square pixel.
   const scene::Kernel kernel(lattice.a, lattice.radius);
   const scene::TexturedSplats textures(kTexture, kernel);
   const double s = lattice.pixels_per_mm;

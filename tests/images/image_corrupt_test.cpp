@@ -152,8 +152,8 @@ TEST(DamagedImage, SizeThatLiesCostsNoMemory) {
   const long before = peak_resident_mib();
   refusal(ExitCode::Input, [&] { read_image(folder / "lie.exr"); });
   const long grown = peak_resident_mib() - before;
-  // Here one block of 2^22 floats (16 MiB); in the decoder blocks of 16 rows (16 MiB) per thread, packed and unpacked,
-  // two per thread of two or more: 64 MiB a thread for up to 4 threads.
+  // The reader holds one block of 2^22 floats (16 MiB). The decoder holds blocks of 16 rows (16 MiB), packed and
+  // unpacked, two for each of several threads: 64 MiB a thread for up to 4 threads.
   std::printf("[figure] memory for a header that promises 8 GiB = %ld MiB (limit 272)\n", grown);
   RecordProperty("grown_mib", static_cast<int>(grown));
   EXPECT_GT(before, 0);

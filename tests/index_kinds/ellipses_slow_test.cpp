@@ -20,9 +20,9 @@ void print(const char* what, const EllipseErrors& e) {
               static_cast<long long>(e.least_q));
 }
 
-/// Largest error of one weight, 1/255: half an entry of the table plus the words' error in q, at most 8/N an entry (a
-/// R^2 = 8); half a word and the one that the table's sum may have raised; at the rim, where one entry too many or too
-/// few may count, exp(-8).
+/// Largest error of one weight, 1/255, from three parts. Index: half an entry of the table plus the words' error in q,
+/// at most 8/N an entry (a R^2 = 8). Word: half a word, and the one that the table's sum may have raised. Support:
+/// exp(-8) at its edge, where one entry too many or too few may count.
 double limit(const EllipseErrors& e) {
   return 255.0 * (8.0 / 1024 * (0.5 + e.entries_bound) + 1.5 * 0x1p-14) + 255.0 * std::exp(-8.0);
 }

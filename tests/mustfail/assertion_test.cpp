@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An assertion of the RTL that fails inside `verify`: reported in one line with its name, instance and cycle, as a
-// fault of the simulation, and shrunk and replayed like any other failure.
+// An assertion of the RTL that fails inside `verify` is a fault of the simulation. One line reports its name, instance
+// and cycle. It is shrunk and replayed like any other failure.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -45,8 +45,8 @@ struct Tables {
   std::vector<std::uint32_t> rlut, radial, factor;
 };
 
-/// Splats of one window each on two neighbouring centres, in successive sheets without a stall: every sheet's buffer is
-/// free before it is needed, so the words of sheet s+1 come three cycles after those of sheet s.
+/// Splats of one window each on two neighbouring centres, in successive sheets without a stall. Every sheet's buffer is
+/// free before it is needed, so the words of sheet s+1 come three cycles after the words of sheet s.
 std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t seed, int dimming = 4) {
   const oracle::Symbols c = symbols_of(config);
   Random random(seed);
@@ -74,8 +74,8 @@ std::vector<cmodel::Beat> hot_spot(const cmodel::Config& config, std::uint64_t s
   return to_beats(w.bytes());
 }
 
-/// Tiles of few splats, so that pixels do not freeze: windows on one place, on one beside it and on one far away, after
-/// 1 to 6 cycles, and across the tile's left and upper edge. Composited sample by sample if the device can, else by
+/// Tiles of few splats, so that no pixel terminates early. Windows lie on one place, beside it and far away, after 1 to
+/// 6 cycles, and across the tile's left and upper edge. They are composited sample by sample if the device can, else by
 /// sheets.
 std::vector<cmodel::Beat> hot_samples(const cmodel::Config& config, std::uint64_t seed) {
   const oracle::Symbols c = symbols_of(config);

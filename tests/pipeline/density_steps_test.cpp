@@ -88,9 +88,10 @@ TEST(DensitySteps, TheDevicesSideIsTheModelsUnitOnAnyWords) {
   EXPECT_GT(shaded, 200u);
 }
 
-/// Golden's stage works in floats after the gradient. In units of 2^-24, a float's rounding: components 1, the length
-/// 4, a share of shading 2 (4 + 2) = 12 as lengths are up to twice the floor; a normal 6, a cosine 10, times diffuse
-/// and 3 more for the matt part; a power of it 10 shininess + 2; mixing values that differ by 1.3 at most, 6 more.
+/// Golden's stage works in floats after the gradient. The errors in units of 2^-24, a float's rounding: components 1,
+/// the length 4. A share of shading has 2 (4 + 2) = 12, as lengths are up to twice the floor. A normal has 6, a cosine
+/// 10; the matt part has the cosine's times diffuse and 3 more. A power of the cosine has 10 shininess + 2. Mixing
+/// values that differ by at most 1.3 adds 6.
 double float_bound(const scene::Shading& shading) {
   return std::ldexp(
       12.0 * 1.3 + 10.0 * shading.diffuse + 3.0 + shading.specular * (10.0 * shading.shininess + 2.0) + 6.0, -24);

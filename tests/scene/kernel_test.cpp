@@ -100,8 +100,8 @@ TEST_P(KernelIntegrals, TheWholeIsOne) {
 
 // N-8-40: v.
 TEST_P(KernelIntegrals, VarianceIsTheFootprintsSecondMoment) {
-  // Rings: pi rho^3 F(rho), midpoint; with t = sqrt(a) rho the second derivative is below sqrt(a) (6t + 14t^3 + 4t^5)
-  // exp(-t^2) < 11 sqrt(a), over what the cut at R leaves of the volume.
+  // Rings: pi rho^3 F(rho) by the midpoint rule. With t = sqrt(a) rho the second derivative is below sqrt(a) (6t +
+  // 14t^3 + 4t^5) exp(-t^2) < 11 sqrt(a), divided by the part of the volume that the cut at R leaves.
   constexpr int kRings = 20000;
   const double a = kernel_.a(), r = kernel_.radius();
   const double step = r / kRings;
@@ -131,8 +131,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, KernelIntegrals,
                                            Shape{20.0, 4.0}));
 
 TEST(Kernel, MeanOverTheLatticeIsOne) {
-  // 8^3 phases of the unit cell: their mean is the integral up to aliases of order exp(-64 pi^2 / a), plus the error of
-  // sampling the truncated rim, whose value is exp(-a R^2) = 3.4e-4 of the peak at most.
+  // The mean over 8^3 phases of the unit cell is the integral, up to aliases of order exp(-64 pi^2 / a). Sampling the
+  // cut at R adds an error; the kernel is at most exp(-a R^2) = 3.4e-4 of its peak there.
   const Kernel kernel = kernel_by_name("gauss2");
   double sum = 0.0;
   for (int x = -24; x < 24; ++x) {

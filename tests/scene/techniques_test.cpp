@@ -61,8 +61,8 @@ TEST(Techniques, MotionStaysInFrontOfTheEye) {
   EXPECT_THAT(refused(d), HasSubstr("orbit is out of range"));
 }
 
-// c(z) = A f |z - zf| / (z (zf - f)) on a film at the image's distance zi, 1/zi = 1/f - 1/zf, which spans the image:
-// for any f, that is A |s(z) - s(zf)| pixels (N-8-40).
+// c(z) = A f |z - zf| / (z (zf - f)) on a film that spans the image, at the image's distance zi, 1/zi = 1/f - 1/zf. For
+// any f, that is A |s(z) - s(zf)| pixels (N-8-40).
 TEST(Techniques, CircleOfConfusionIsTheThinLens) {
   SceneDescription d = perspective();
   d.lens = {DepthOfField::Splats, 4.0, 1.5};

@@ -138,6 +138,8 @@ TEST(PlanMake, ChangedFilesAreRefused) {
   changed.replace(changed.rfind("\"2\""), 3, "\"7\"");
   EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", changed)); }), HasSubstr("was changed"));
   EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.json", text.substr(0, 200))); }), HasSubstr("not a plan"));
+  EXPECT_THAT(error_of([&] { plan::read_plan(folder.write("p.toml", "kind = \"compare\"\n")); }),
+              HasSubstr("make a plan of it with 'fastsplat plan make'"));
   EXPECT_THAT(error_of([&] { plan::shard_from("3/2"); }), HasSubstr("invalid shard"));
 }
 

@@ -177,7 +177,7 @@ TEST_P(Fuzz, TransferFunctions) {
     accepted += taken(number, [&] {
       const auto tf = scene::load_transfer_function(path_.string());
       const scene::Classifier classify(tf, volume);
-      // An accepted function classifies every value, in numbers.
+      // An accepted function gives finite numbers for every value.
       for (const float value : {volume.min, 0.5f * (volume.min + volume.max), volume.max}) {
         const auto material = classify(value);
         EXPECT_TRUE(std::isfinite(material.extinction) && material.extinction >= 0.0f) << "case " << number << "\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// consumer CONFIG FILE.fss: feeds a recorded stream to the model and prints "NAME VALUE" of every counter, then
-// "pixels SUM" of all words; what goes wrong to stderr, with its status as the exit code.
+// consumer CONFIG FILE.fss: feeds a recorded stream to the model. Prints "NAME VALUE" of every counter, then "pixels
+// SUM" of all words. Errors go to stderr, and their status is the exit code.
 #include <fastsplat.h>
 #include <fastsplat_dpi.h>
 #include <fastsplat_registers.h>

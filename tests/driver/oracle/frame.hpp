@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From real splats to the records of a frame, written again from docs/numerics.md, section 8, and docs/stream.md alone:
-// loops over all tiles, sheets and splats, exact wide integers, nothing shared with the driver. Oracle and driver must
-// produce the same words.
+// From real splats to the records of a frame, written a second time from docs/numerics.md, section 8, and
+// docs/stream.md alone. It loops over all tiles, sheets and splats, uses exact wide integers and shares nothing with
+// the driver. Oracle and driver must produce the same words.
 #pragma once
 
 #include <array>

@@ -91,23 +91,18 @@ module fastsplat_top (
   end
 
   // BUSY and interrupts wait for the sink. A frame has left when the sink has taken the tiles that lay in the slice at its end.
-  logic frame_end, tile_left, frame_left, frame_waits_q;
-  logic [1:0] tiles_q, waits_q, tiles;  // in the slice; of these before the frame's end
+  logic frame_end, tile_left, frame_left;
+  logic [1:0] tiles_q, tiles;  // in the slice
+  logic [2:0] ends_q;          // bit n: a frame's end waits for n tiles
   assign tile_left = m_axis_tvalid && m_axis_tready && m_axis_tlast;
   assign tiles = tiles_q - 2'(tile_left);
-  assign frame_left = frame_waits_q && waits_q == '0;
+  assign frame_left = ends_q[0];
   always_ff @(posedge aclk) begin
     tiles_q <= tiles + 2'(pixels_valid && pixels_ready && last);
-    if (tile_left && waits_q != '0) waits_q <= waits_q - 2'd1;
-    if (frame_left) frame_waits_q <= 1'b0;
-    if (frame_end) begin
-      frame_waits_q <= 1'b1;
-      waits_q <= tiles;
-    end
+    ends_q <= (tile_left ? ends_q >> 1 : {ends_q[2:1], 1'b0}) | (3'(frame_end) << tiles);
     if (!aresetn) begin
       tiles_q <= '0;
-      waits_q <= '0;
-      frame_waits_q <= 1'b0;
+      ends_q <= '0;
     end
   end
 

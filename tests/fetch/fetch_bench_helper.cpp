@@ -23,6 +23,7 @@ namespace {
 using cmodel::Beat;
 
 constexpr std::uint64_t kPatience = 20'000;  ///< cycles without a beat
+constexpr unsigned kVerdict = 2;             ///< error
 constexpr std::uint64_t kJudged = 6;         ///< from a beat taken to its verdict: two registers of check, t0 to t3
 
 /// The master of type Top in a run.
@@ -76,8 +77,8 @@ class Bench {
   void say(const std::string& what) {
     if (out_.finding.empty()) out_.finding = "cycle " + std::to_string(cycle_) + ": " + what;
   }
-  /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching"; M-fetch-19): `stop` stays until the
-  /// device is at rest, and verdicts before that are not errors (M-fetch-21).
+  /// From `stop` to the next frame, state by state (docs/integration.md, "Fetching"; M-fetch-19): `stop` stays until
+  /// the device is at rest, and verdicts before that are not errors (M-fetch-21).
   void recover() {
     if (top_->busy != 0) return;
     if (!resetting_) {
@@ -175,6 +176,8 @@ class Bench {
     if (asks && !asked_before_ && held_back_) say("asks while it is stopped or an error stands");  // M-fetch-17, -20
     if (stopping_ && !takes) say("takes no command while it is stopped");                          // M-fetch-20
     if (!stopping_ && top_->error != 0 && takes) say("takes a command while an error stands");     // M-fetch-17
+    if (held_back_ && error_before_ == 0 && top_->error == kVerdict)
+      say("a verdict is an error while it is stopped");  // M-fetch-21
     if (bad_ && error_before_ == 0 && top_->error != 1) say("error stays 0 after an unreadable beat");
     if (!stopping_ && top_->error == 0 && top_->busy == 0 && command_ > 0 && out_.taken.size() < ends_[command_ - 1])
       say("not busy, and beats of a command have not been sent");

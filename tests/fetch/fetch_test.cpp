@@ -281,8 +281,13 @@ TEST(Fetch, WorksAgainAfterAStop) {
     stops = stop_and_begin_again(stream_with_empty_sets({30, 7, 40}), run, 13);
     EXPECT_EQ(stops.finding, "");
     runs += stops.runs;
+    // And while it has more such sets to send.
+    run.ahead = 30;
+    stops = stop_and_begin_again(stream_with_empty_sets({100}), run, 13);
+    EXPECT_EQ(stops.finding, "");
+    runs += stops.runs;
     // And while beats are still to be sent.
-    run.ready = Pattern("every-30", 3), run.verdict_wait = 400;
+    run.ahead = 60, run.ready = Pattern("every-30", 3), run.verdict_wait = 400;
     stops = stop_and_begin_again(stream_with_empty_sets({30, 7, 40}), run, 97);
     EXPECT_EQ(stops.finding, "");
     runs += stops.runs;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mutants of cmodel/ and driver/: the folder's fast tests over mutated sources, a process for each mutant, until the first test fails."""
+"""Mutants below tests: cmodel/ and driver/, fetch and top. The folder's tests run over mutated sources, a process for each mutant, until the first
+test fails."""
 import json
 import os
 import re
@@ -64,9 +65,11 @@ def _verdict(code: int, output: str):
     return "killed", f"{name}: exit {code}"
 
 
-def run(binary: str, numbers: list[int], jobs: int, until=None) -> dict[int, tuple[str, str]]:
-    passes = _healthy(binary)
-    results, left, lock = {}, list(numbers), threading.Lock()
+def run(binary: str, numbers: list[int], jobs: int, until=None, journal=None) -> dict[int, tuple[str, str]]:
+    """As campaign.run."""
+    results = {number: journal.said[number] for number in numbers if number in journal.said} if journal else {}
+    left, lock = [number for number in numbers if number not in results], threading.Lock()
+    passes = _healthy(binary) if left else []
 
     def judged(number: int):
         said = []
@@ -86,6 +89,8 @@ def run(binary: str, numbers: list[int], jobs: int, until=None) -> dict[int, tup
             verdict = judged(number)
             with lock:
                 results[number] = verdict
+                if journal:
+                    journal.add(number, verdict)
                 if sys.stderr.isatty():
                     print(f"\rmutate: {len(results)} of {len(numbers)} ", end="", file=sys.stderr, flush=True)
 

@@ -22,6 +22,8 @@ _ONLY = {"densities": ("classify", "densit", "compositor", "dirty_map", "ellipse
          "density_rows": ("density_ring", "stream_check"), "cull_samples": ("fastsplat_core", "stream_decode"),
          "cull_pixel": ("cull", "compositor", "fastsplat_core", "stream_decode"),
          "ties": ("snap", "narrow"), "halves": ("snap", "narrow"), "truncating": ("snap", "narrow")}
+# The same in every device: what lives on the first is tried over tests (mutate.TESTS).
+_ALIKE = {"top", "slice"}
 FIRST = "corners"  # its program holds all mutants, and is the same for every run
 
 
@@ -30,6 +32,8 @@ class Device:
         self.name, self.config = name, f"{root}/{_PLACES[name].format(name)}"
         self.modules = _modules_of(root, build, self.config, _TOPS.get(name, "fastsplat_dut"))
         self.modules = {module for module in self.modules if module.startswith(_ONLY.get(name, ""))}
+        if name != FIRST:
+            self.modules -= _ALIKE
 
 
 def devices(root: str, build: str) -> list[Device]:

@@ -70,6 +70,11 @@ def mutate(rtl: str, wanted=lambda module, number: True, planted=False, beside=F
     return out, number
 
 
+def all_of(rtl: str) -> list[dict]:
+    """All mutants, of the device's modules and of those beside it."""
+    return [vars(m) for beside in (False, True) for _, _, listed in mutate(rtl, beside=beside)[0] for m in listed]
+
+
 def write(path: str, text: str):
     """Only where it differs: nothing is built again for the same text."""
     if os.path.exists(path):

@@ -26,7 +26,8 @@ from exclusions import Exclusions
 
 SAMPLE = 300
 CPP = ("cmodel", "driver")
-OVER_TESTS = (*CPP, "fetch")  # run over tests: sources of C++, and the fetch master with its queue
+# Programs of tests over mutants, and the modules in them: what drives ports that no device of devices.py shows.
+TESTS = {"fetch": generate.BESIDE, "top": ("top", "slice")}
 
 
 def say(text: str):
@@ -58,7 +59,7 @@ def chosen(arguments, mutants):
             campaign.usage(f"--one {arguments.one}: not one of {len(mutants)} mutants; see the list of living mutants and build/mutants/corners/mutants.json")
         return found
     if arguments.module:
-        known = sorted({m["module"] for m in mutants}) + ["cmodel and driver, or fetch (without others)"]
+        known = sorted({m["module"] for m in mutants}) + ["cmodel and driver (without others)"]
         for module in arguments.module:
             if module not in known:
                 campaign.usage(f"--module {module}: unknown module; expected one of {', '.join(known)}")
@@ -77,8 +78,9 @@ def program(root, build, name, kind="check_mutants_"):
 
 def run_all(arguments, root, build, until):
     """{number: (where, what was said)} of the killed, those that live, those not tried."""
-    mutants = chosen(arguments, [vars(m) for _, _, listed in generate.mutate(f"{root}/rtl")[0] for m in listed])
+    mutants = chosen(arguments, generate.all_of(f"{root}/rtl"))
     program(root, build, "emit_package", "fastsplat_")
+    kept = arguments.all or arguments.module  # not of a few, which are tried in seconds, nor of one, which is asked for to be seen
     module = {m["number"]: m["module"] for m in mutants}
     killed, untried = {}, []
     living = list(module)
@@ -86,12 +88,13 @@ def run_all(arguments, root, build, until):
         tried = [number for number in living if module[number] in device.modules]
         if not tried:
             continue
-        if device.name != devices.FIRST:
+        # The first device's whole program takes minutes to build: for single modules there is one of them alone.
+        name = "modules" if device.name == devices.FIRST and arguments.module else device.name
+        if name != devices.FIRST:
             campaign.write(f"{build}/mutants/living.txt", "".join(f"{number}\n" for number in tried))
-        binary = program(root, build, device.name)
-        # Not of a few, which are tried in seconds, nor of one, which is asked for to be seen.
-        journal = campaign.Journal(os.path.basename(binary), [binary, device.config], f"{build}/mutants/journal") if arguments.all or arguments.module else None
-        built = campaign.built(f"{build}/verilated/mutants_{device.name}/obj")
+        binary = program(root, build, name)
+        journal = campaign.Journal(os.path.basename(binary), [binary, device.config], f"{build}/mutants/journal") if kept else None
+        built = campaign.built(f"{build}/verilated/mutants_{name}/obj")
         absent = [number for number in tried if number not in built]
         tried = [number for number in tried if number in built]
         results = campaign.run(binary, device.config, tried, arguments.jobs, until, journal)
@@ -101,14 +104,26 @@ def run_all(arguments, root, build, until):
                 killed[number] = (said if device.name == devices.FIRST else f"{device.name}/{said}")
         gone = {*killed, *untried}
         living = [number for number in living if number not in gone]
-        say(f"{device.name}: {len(absent)} are not in it, {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
+        say(f"{name}: {len(absent)} are not in it, {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
         if not living:
             break
+    for name, modules in TESTS.items():
+        tried = [number for number in living if module[number] in modules]
+        if not tried:
+            continue
+        binary = program(root, build, f"mutants_{name}", "")
+        journal = campaign.Journal(os.path.basename(binary), [binary], f"{build}/mutants/journal") if kept else None
+        results = cpp_campaign.run(binary, tried, arguments.jobs, until, journal)
+        untried += [number for number in tried if number not in results]
+        killed.update({number: f"tests/{name}/{said}" for number, (verdict, said) in results.items() if verdict == "killed"})
+        gone = {*killed, *untried}
+        living = [number for number in living if number not in gone]
+        say(f"tests/{name}: {len(results)} tried, {len(tried) - len(gone.intersection(tried))} live")
     return mutants, killed, living, untried
 
 
-def run_over_tests(arguments, root, build, until):
-    """The same of C++, whose mutants are a sample that is built, and of the fetch master."""
+def run_over_cpp(arguments, root, build, until):
+    """The same of C++, whose mutants are a sample that is built."""
     mutants, killed, living, untried = [], {}, [], []
     for n, module in enumerate(arguments.module):
         binary = program(root, build, f"mutants_{module}", "")
@@ -239,10 +254,9 @@ def main(words) -> int:
     root, build, *rest = words
     arguments = parse(rest)
     cpp = bool(arguments.module) and set(arguments.module) <= set(CPP)
-    over_tests = cpp or arguments.module == ["fetch"]
     exclusions = Exclusions(f"{root}/tests/mutants/{'exclusions_cpp' if cpp else 'exclusions'}.toml")
     until = time.monotonic() + 60 * arguments.budget if arguments.budget else None
-    mutants, killed, living, untried = (run_over_tests if over_tests else run_all)(arguments, root, build, until)
+    mutants, killed, living, untried = (run_over_cpp if cpp else run_all)(arguments, root, build, until)
     proved = hand_to_proofs(root, build, mutants, living, exclusions, arguments.jobs)
     killed.update(proved)
     living = [number for number in living if number not in proved]

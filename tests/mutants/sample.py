@@ -6,6 +6,7 @@ import sys
 import tempfile
 
 import campaign
+import cpp_campaign
 import generate
 import generate_cpp
 import mutate
@@ -20,12 +21,21 @@ FIXED = [
     ("if (chosen_q == '0) begin", "always of chosen_q == '0", "random"),
     ("assign write = awvalid_i && wvalid_i && !bvalid_o;", "&& becomes || of awvalid_i && wvalid_i", "registers"),
     ("else counter_q[n] <= counter_q[n] + CB'(increments_i[16*n+:16]);", "dropped", "random"),
+    ("ready_o <= moves || !(spare_q || taken);", "without its right side of moves || !(spare_q || taken)", "hazards"),
+    ("tiles_q <= tiles + 2'(pixels_valid && pixels_ready && last);", "dropped", "refusals"),
+]
+# (program, line, name, test): of what lies around the core.
+OVER_TESTS = [
+    ("top", "assign write_address = (s_axil_wstrb == 4'hf) ? s_axil_awaddr : NOWHERE;", "always its first of (s_axil_wstrb == 4'hf) ? s_axil_awaddr : NOWHERE", "Top"),
+    ("top", ".slices_busy_i(core_valid || m_axis_tvalid),", "without its right side of core_valid || m_axis_tvalid", "Top"),
+    ("fetch", "unsent_q <= unsent_q + DB'(arrives) - DB'(sends);", "dropped", "Fetch"),
+    ("fetch", "assign judges = verdict_valid && judged_valid && judged_counted;", "without its right side of verdict_valid && judged_valid && judged_counted", "Fetch"),
 ]
 
 source, build = sys.argv[1:]
 failures = []
 found, _ = generate.mutate(f"{source}/rtl")
-mutants = [vars(m) for _, _, listed in found for m in listed]
+mutants = generate.all_of(f"{source}/rtl")
 print(f"[figure] mutants of rtl = {len(mutants)} (limit >= {FEWEST})")
 if len(mutants) < FEWEST or len({m["number"] for m in mutants}) != len(mutants):
     failures.append("too few mutants, or a number twice")
@@ -67,6 +77,21 @@ verdict, said = results[planted["number"]]
 print(f"[figure] a mutant that changes nothing: {verdict} {said}")
 if verdict != "lives":
     failures.append("the mutant that changes nothing is killed")
+
+for program in dict.fromkeys(program for program, *_ in OVER_TESTS):
+    with open(f"{build}/mutants/{program}/mutants.json") as file:
+        listed = json.load(file)
+    wanted = {}
+    for line, name, test in [entry for of, *entry in OVER_TESTS if of == program]:
+        of = [m["number"] for m in listed if m["source"] == line and campaign.name_of(m) == name]
+        if not of:
+            failures.append(f"there is no mutant '{name}' of: {line}")
+        wanted.update({number: (line, name, test) for number in of[:1]})
+    for number, (verdict, said) in cpp_campaign.run(f"{build}/bin/mutants_{program}", list(wanted), 1).items():
+        line, name, test = wanted[number]
+        print(f"[figure] {program}: {name}: {verdict} {said}")
+        if verdict != "killed" or not said.startswith(test):
+            failures.append(f"{name} of '{line}': expected killed by tests/{program}, got {verdict} {said}")
 
 # A campaign that was stopped in the middle of a line goes on behind the last whole one.
 with tempfile.TemporaryDirectory() as folder:

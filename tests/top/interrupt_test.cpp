@@ -88,6 +88,19 @@ TEST(TopInterrupts, AFramesComesWhenTheSinkTakesItsLastBeat) {
   EXPECT_GT(interrupts, 20U);
 }
 
+// Tiles of one beat: the slice holds two frames at once.
+TEST(TopInterrupts, TwoFramesInTheSliceInterruptTwice) {
+  const std::vector<int> tiles(6, 1);
+  std::size_t interrupts = 0;
+  for (const char* sink : {"every-400", "every-700"}) {
+    const TopResult seen = run_top(frames(tiles, 2), {}, run_with(cmodel::kIrqFrame, sink, 1));
+    expect_frames(seen, tiles);
+    interrupts += seen.interrupts.size();
+  }
+  std::printf("[figure] interrupts of frames of one beat = %zu\n", interrupts);
+  EXPECT_EQ(interrupts, 12U);
+}
+
 // What was counted in front of it is forgotten.
 TEST(TopInterrupts, AHardResetForgetsTilesOnTheirWay) {
   const auto first = frames({7}, 6), next = frames({2, 1, 3}, 2);

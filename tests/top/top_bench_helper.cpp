@@ -68,7 +68,7 @@ class Bench {
   bool busy() { return (read(cmodel::kRegStatus.address) & kBusy) != 0; }
   /// All was sent, and has come out; of the first frame where nothing was reset.
   bool done() {
-    const bool sent = at_ == last_ && !offering_ && out_.reset == over_ && cycle_ >= run_.reset_at;
+    const bool sent = at_ == last_ && !offering_ && out_.reset == over_ && cycle_ > run_.reset_at;
     if (!sent || !tile_.empty() || busy()) return false;
     if (top_->m_axis_tvalid != 0) say("not busy, and pixels wait");  // M-top-4
     return true;

@@ -22,7 +22,7 @@ target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
 # and its headers. <config> is a name in configs/ or a path. DEFINES and SOURCES are for the must-fail build (rtl/fault.svh); release builds have none.
 # ASSERT: checks the assertions of rtl/.
 # RTL <folder>: uses the source generated from rtl/ there (tests/mutants). QUICK: favours compile time over simulation speed.
-# TOP <module>: another top module than fastsplat_core. NETLIST <kind>: simulates Yosys' netlist (tools/cmake/netlist.sh); CUT <net>: ties that net to 0.
+# TOP <module>: another top module than the testbench's wrapper fastsplat_dut. NETLIST <kind>: simulates Yosys' netlist (tools/cmake/netlist.sh); CUT <net>: ties that net to 0.
 function(fastsplat_verilate target config)
   cmake_parse_arguments(arg "ASSERT;QUICK" "NETLIST;CUT;RTL;TOP" "DEFINES;SOURCES;ARGS" ${ARGN})
   set(abilities "")
@@ -35,9 +35,11 @@ function(fastsplat_verilate target config)
   file(GLOB RTL_INCLUDES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/rtl/*.svh)
   set(rtl_folder ${PROJECT_SOURCE_DIR}/rtl)
   set(warnings -Wall)
-  set(top fastsplat_core)
+  set(top fastsplat_dut)
+  file(GLOB bench CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/testbench/module/*.sv)
   if(arg_TOP)
     set(top ${arg_TOP})
+    set(bench "")
     list(APPEND warnings -Wno-UNUSEDPARAM)  # a unit uses only parts of the package
   endif()
   if(arg_RTL)
@@ -68,20 +70,23 @@ function(fastsplat_verilate target config)
   foreach(define ${arg_DEFINES})
     list(APPEND defines -D${define})
   endforeach()
-  set(sources ${package} ${arg_SOURCES} ${RTL_SOURCES})
+  set(sources ${package} ${arg_SOURCES} ${RTL_SOURCES} ${bench})
   if(arg_NETLIST)
-    set(sources ${folder}/netlist.v)
+    set(netlist ${folder}/netlist.v)
+    list(FILTER bench EXCLUDE REGEX "/fastsplat_dut.sv$")  # it is in the netlist's file
+    set(sources ${package} ${netlist} ${bench})
     # Yosys' Verilog mixes widths wherever the language allows it.
     set(warnings -Wno-lint -Wno-fatal)
     # The cells are half a million lines of C++, simulated for seconds only.
     if(arg_NETLIST STREQUAL "ice40")
       set(optimise -O0)
     endif()
+    set(dut ${PROJECT_SOURCE_DIR}/testbench/module/fastsplat_dut.sv)
     set(netlist_script ${PROJECT_SOURCE_DIR}/tools/cmake/netlist.sh)
     add_custom_command(
-      OUTPUT ${sources}
-      COMMAND ${netlist_script} ${arg_NETLIST} ${PROJECT_SOURCE_DIR}/rtl ${package} ${sources} ${arg_CUT}
-      DEPENDS ${netlist_script} ${package} ${RTL_SOURCES} ${RTL_INCLUDES}
+      OUTPUT ${netlist}
+      COMMAND ${netlist_script} ${arg_NETLIST} ${PROJECT_SOURCE_DIR}/rtl ${dut} ${package} ${netlist} ${arg_CUT}
+      DEPENDS ${netlist_script} ${dut} ${package} ${RTL_SOURCES} ${RTL_INCLUDES}
       VERBATIM
       COMMENT "Netlist ${target}")
   endif()

@@ -66,7 +66,7 @@ std::string to_text(const Proposal& p) {
                             : fmt::format("{}: cannot be drawn", key.lower));
   }
   text += fmt::format("{:<12}{:>12}{:>12}\n", "", "from", "proposed") + costs(p.cost_from, p.cost);
-  return text + fmt::format("{} configurations evaluated: {} frames simulated, {} from the journal\n", s.evaluated,
+  return text + fmt::format("{} configurations evaluated: {} frames simulated, {} recalled\n", s.evaluated,
                             p.simulated, p.recalled);
 }
 

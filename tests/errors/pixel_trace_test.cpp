@@ -95,8 +95,8 @@ void against_taps(const scene::Scene& scene, const cmodel::Config& config, Rando
   AllTaps all_taps;
   std::vector<glm::ivec2> places;
   for (int pixel = 0; pixel < 8; ++pixel) {
-    places.emplace_back(random.between(0, scene.description.width - 1),
-                        random.between(0, scene.description.height - 1));
+    const auto x = static_cast<int>(random.between(0, scene.description.width - 1));
+    places.emplace_back(x, random.between(0, scene.description.height - 1));
     all_taps.pixels.emplace_back(compiled.grid(), config.lanes, places.back().x, places.back().y);
   }
   cmodel::NullPixels nowhere;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/toml_kind.hpp"
+#include "base/toml/toml_kind.hpp"
 
 namespace fastsplat::scene {
 

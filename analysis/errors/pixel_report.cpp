@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/error_values.hpp"
+#include "driver/tiles/frame_head.hpp"
 
 namespace fastsplat::analysis {
 namespace {

@@ -10,8 +10,7 @@
 #include "analysis/pipeline/product_rule.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
 #include "base/error.hpp"
-#include "driver/tiles/compile.hpp"
-#include "scene/capability.hpp"
+#include "driver/tiles/frame_head.hpp"
 
 namespace fastsplat::stages {
 namespace {

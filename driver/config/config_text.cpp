@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/suggest.hpp"
-#include "base/toml_text.hpp"
+#include "base/toml/toml_text.hpp"
 
 namespace fastsplat::driver {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
-#include "base/toml_text.hpp"
+#include "base/toml/toml_text.hpp"
 
 namespace fastsplat::testbench {
 namespace {

@@ -72,6 +72,8 @@ class OwnInput : public ::testing::Test {
         {config_, {"cycles", "--stream", stream_, "--config", config_, "--json", config_}},
         {volume_, {"cycles", "--volume", volume_, "--size", "8", "--json", volume_}},
         {volume_, {"errors", "--volume", volume_, "--size", "8", "--json", volume_}},
+        {volume_, {"pixel", "1,1", "--volume", volume_, "--size", "8", "--json", volume_}},
+        {config_, {"pixel", "1,1", "--volume", "shells:8", "--size", "8", "--config", config_, "--json", config_}},
         {config_, {"errors", "bound", "--volume", "shells:8", "--size", "8", "--config", config_, "--json", config_}},
         {config_, {"errors", "ranges", "--volume", "shells:8", "--size", "8", "--config", config_, "--json", config_}},
         {scene_, {"errors", "ranges", "--scenes", scene_, "--json", scene_}},

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "base/toml_kind.hpp"
+#include "base/toml/toml_kind.hpp"
 
 namespace fastsplat {
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/error_values.hpp"
+#include "base/error.hpp"
 #include "driver/tiles/frame_head.hpp"
 
 namespace fastsplat::analysis {
@@ -59,12 +60,9 @@ struct Sheet {
 class Pairs {
  public:
   Pairs(const PixelReport& report, const stages::Chain& chain)
-      : report_(report),
-        config_(chain.config()),
-        xray_(chain.scene().description.method == scene::Method::XRay),
-        samples_(driver::every_sample(chain.scene().description)) {
-    take(report.real, false);
-    take(report.device, true);
+      : report_(report), config_(chain.config()), description_(chain.scene().description) {
+    if (config_.index() == cmodel::IndexKind::Rlut && !chain.steps().shaped()) distance_bits_ = config_.rlut_guard_bits;
+    for (const std::size_t side : {0, 1}) take(side);
   }
 
   std::vector<Sheet> sheets() const {
@@ -87,10 +85,16 @@ class Pairs {
   };
   using Sides = std::array<const SheetTrace*, 2>;  ///< real, device
 
-  void take(const PixelTrace& trace, bool device) {
+  const PixelTrace& trace(std::size_t side) const { return side == 0 ? report_.real : report_.device; }
+  bool xray() const { return description_.method == scene::Method::XRay; }
+
+  void take(std::size_t side) {
+    const PixelTrace& trace = this->trace(side);
+    const bool samples = driver::every_sample(description_);
+    for (const SplatTrace& splat : trace.splats) splats_[splat.splat][side] = &splat;
     for (const SheetTrace& sheet : trace.sheets) {
-      const std::uint32_t sample = samples_ ? trace.splats[sheet.shares.front().splat].splat : 0;
-      sheets_[{sheet.sheet, sample}][device ? 1 : 0] = &sheet;
+      const std::uint32_t sample = samples ? trace.splats[sheet.shares.front().splat].splat : 0;
+      sheets_[{sheet.sheet, sample}][side] = &sheet;
     }
   }
   template <class Of>
@@ -110,63 +114,62 @@ class Pairs {
     for (const std::size_t c : {0, 1, 2, 3})
       out.quantities.push_back(quantity(std::string("sum ") + (c == 3 ? "tau" : kChannels[c]), sf, sides,
                                         [c](const SheetTrace& s) { return s.sums[c]; }));
-    if (!xray_) {
+    if (!xray() && description_.slab_opacity == scene::SlabOpacity::Exponential)
       out.quantities.push_back(
           quantity("factor", config_.opacity_frac_bits, sides, [](const SheetTrace& s) { return s.factor; }));
+    if (!xray()) {
       for (const std::size_t c : {0, 1, 2})
         out.quantities.push_back(quantity(std::string("slab ") + kChannels[c], tf, sides,
                                           [c](const SheetTrace& s) { return s.slab.colour[c]; }));
       out.quantities.push_back(quantity("slab A", tf, sides, [](const SheetTrace& s) { return s.slab.opacity; }));
     }
     for (const std::size_t c : {0, 1, 2, 3})
-      out.quantities.push_back(quantity(c == 3 ? xray_ ? "A" : "T" : kChannels[c], xray_ ? sf : tf, sides,
+      out.quantities.push_back(quantity(c == 3 ? xray() ? "A" : "T" : kChannels[c], xray() ? sf : tf, sides,
                                         [c](const SheetTrace& s) { return s.after[c]; }));
     std::map<std::uint32_t, std::array<const stages::ShareTrace*, 2>> shares;
     std::vector<std::uint32_t> order;
     for (const std::size_t side : {0, 1}) {
       if (sides[side] == nullptr) continue;
-      const PixelTrace& trace = side == 0 ? report_.real : report_.device;
       for (const stages::ShareTrace& share : sides[side]->shares) {
-        const std::uint32_t splat = trace.splats[share.splat].splat;
+        const std::uint32_t splat = trace(side).splats[share.splat].splat;
         if (!shares.contains(splat)) order.push_back(splat);
         shares[splat][side] = &share;
       }
     }
-    for (const std::uint32_t splat : order) out.splats.push_back({splat, of_splat(shares[splat])});
+    for (const std::uint32_t splat : order) out.splats.push_back({splat, of_splat(splat, shares[splat])});
     return out;
   }
-  Quantities of_splat(const std::array<const stages::ShareTrace*, 2>& sides) const {
+  /// A side that has the splat at the pixel, but no share of it in the sheet, has the splat's own quantities.
+  Quantities of_splat(std::uint32_t index, const std::array<const stages::ShareTrace*, 2>& shares) const {
     Quantities all;
-    const auto add = [&](std::string name, std::optional<int> frac_bits, auto of) {
+    const auto add = [&](std::string name, std::optional<int> frac_bits, const auto& sides, auto of) {
       std::array<std::optional<double>, 2> values;
-      for (const std::size_t side : {0, 1}) {
-        if (sides[side] == nullptr) continue;
-        const PixelTrace& trace = side == 0 ? report_.real : report_.device;
-        values[side] = of(trace.splats[sides[side]->splat], *sides[side]);
-      }
+      for (const std::size_t side : {0, 1})
+        if (sides[side] != nullptr) values[side] = of(*sides[side]);
       all.push_back({std::move(name), frac_bits, values[0], values[1]});
     };
-    using stages::ShareTrace;
+    const auto& placed = splats_.at(index);
     using Value = std::optional<double>;
-    const int pf = config_.position_frac_bits;
-    add("x", pf, [](const SplatTrace& s, const ShareTrace&) { return Value(s.placed.x); });
-    add("y", pf, [](const SplatTrace& s, const ShareTrace&) { return Value(s.placed.y); });
-    add("radius", std::nullopt, [](const SplatTrace& s, const ShareTrace&) { return Value(s.placed.radius); });
-    add("q", config_.rlut_guard_bits, [](const SplatTrace& s, const ShareTrace&) { return s.entries; });
-    add("weight", config_.radial_frac_bits, [](const SplatTrace& s, const ShareTrace&) { return Value(s.weight); });
+    add("x", config_.position_frac_bits, placed, [](const SplatTrace& s) { return Value(s.placed.x); });
+    add("y", config_.position_frac_bits, placed, [](const SplatTrace& s) { return Value(s.placed.y); });
+    add("radius", std::nullopt, placed, [](const SplatTrace& s) { return Value(s.placed.radius); });
+    add("q", distance_bits_, placed, [](const SplatTrace& s) { return s.entries; });
+    add("weight", config_.radial_frac_bits, placed, [](const SplatTrace& s) { return Value(s.weight); });
     for (const std::size_t c : {0, 1, 2, 3}) {
       const std::string name = c == 3 ? "tau" : kChannels[c];
-      add("share " + name, config_.colour_frac_bits,
-          [c](const SplatTrace&, const ShareTrace& s) { return Value(s.share[c]); });
-      add("product " + name, config_.sheet_frac_bits,
-          [c](const SplatTrace&, const ShareTrace& s) { return Value(s.product[c]); });
+      add("share " + name, config_.colour_frac_bits, shares,
+          [c](const stages::ShareTrace& s) { return Value(s.share[c]); });
+      add("product " + name, config_.sheet_frac_bits, shares,
+          [c](const stages::ShareTrace& s) { return Value(s.product[c]); });
     }
     return all;
   }
 
   const PixelReport& report_;
   const cmodel::Config& config_;
-  bool xray_, samples_;
+  const scene::SceneDescription& description_;
+  std::optional<int> distance_bits_;  ///< fraction bits of q, which is a word only if it comes from the RLUT
+  std::map<std::uint32_t, std::array<const SplatTrace*, 2>> splats_;  ///< by index in Chain::list()
   std::map<Key, Sides> sheets_;
 };
 
@@ -193,9 +196,7 @@ void add_formats(Json& json, const Quantities& quantities) {
 }
 
 glm::ivec3 voxel_of(const stages::Chain& chain, std::uint32_t splat) {
-  const volume::Volume& volume = *chain.scene().volume;
-  return {glm::round(volume.to_grid(glm::dvec3(chain.list().splats[splat].position)) / volume.spacing +
-                     0.5 * glm::dvec3(volume.dims - 1))};
+  return stages::voxel_of(*chain.scene().volume, chain.list().splats[splat]);
 }
 
 const Quantity& named(const Quantities& all, const std::string& name) {
@@ -289,7 +290,7 @@ std::string splats_of(const Sheet& sheet, const stages::Chain& chain, std::size_
     text += three_lines(fmt::format("{},{},{}", voxel.x, voxel.y, voxel.z), of_channel(splats[i]->quantities, channel));
   }
   if (splats.size() > most)
-    text += fmt::format("  {} fainter splats: --sheet {} shows them\n", splats.size() - most, sheet.number);
+    text += fmt::format("  fainter ones: {} (--sheet {} shows them)\n", splats.size() - most, sheet.number);
   const Quantities sums = of_channel(sheet.quantities, channel);
   return text + names_of(sums) + three_lines("together", sums);
 }
@@ -341,6 +342,13 @@ std::string to_text(const PixelReport& report, const stages::Chain& chain, const
   text += fmt::format("\n{:>8} {:>7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>13}\n", "sheet", "splats", "opacity",
                       "device's", fmt::format("{} so far", kChannels[c]), "device's",
                       c == 3 && named_t(sheets.front()) ? "word of T" : "word", "error, " + lsb);
+  if (details.sheet && std::ranges::find(sheets, *details.sheet, &Sheet::number) == sheets.end()) {
+    throw_usage({.where = "--sheet",
+                 .what = "no splat of the pixel is in this sheet",
+                 .expected = fmt::format("{} to {}", sheets.front().number, sheets.back().number),
+                 .got = std::to_string(*details.sheet),
+                 .fix = "leave it out to see all sheets"});
+  }
   const std::vector<double> errors = errors_behind(sheets, c);
   const std::size_t worst = worst_of(errors);
   std::string story;

@@ -34,7 +34,7 @@ struct Details {
   bool all = false;
   std::optional<int> sheet;
 };
-/// Steps, sheets and splats; `bits`: one LSB is 1/(2^bits - 1).
+/// Steps, sheets and splats; `bits`: one LSB is 1/(2^bits - 1). Throws UserError (Usage) if no splat is in the sheet.
 std::string to_text(const PixelReport& report, const stages::Chain& chain, const Details& details, int bits);
 /// Everything, with the device's words.
 nlohmann::ordered_json to_json(const PixelReport& report, const stages::Chain& chain);

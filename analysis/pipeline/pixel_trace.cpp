@@ -36,9 +36,9 @@ std::vector<std::uint32_t> near_splats(const Chain& chain, int x, int y, int thr
 
 /// Composites what a sheet gathered. True if nothing behind it can change the pixel.
 bool composite(const PixelSteps& steps, SheetTrace& sheet, golden::Sums& pixel) {
-  const golden::Sums sums = steps.cut(sheet.sums);
-  sheet.factor = steps.factor(sums[3]);
-  sheet.slab = steps.slab(sums);
+  sheet.sums = steps.cut(sheet.sums);
+  sheet.factor = steps.factor(sheet.sums[3]);
+  sheet.slab = steps.slab(sheet.sums);
   const bool terminated = steps.take(sheet.sums, pixel);
   sheet.after = pixel;
   return terminated;
@@ -111,7 +111,7 @@ PixelTrace PixelChain::operator()(const Mixture& mixture) const {
       sheet.sheet = splat.first + static_cast<int>(s);
       ShareTrace share{number, shares[s], {}};
       add_products(std::span(&here->weight, 1), shares[s], rule, &share.product);
-      add_products(std::span(&here->weight, 1), shares[s], rule, &sheet.sums);
+      for (std::size_t c = 0; c < 4; ++c) sheet.sums[c] += share.product[c];
       sheet.shares.push_back(share);
     }
   }

@@ -30,7 +30,7 @@ struct ShareTrace {
 struct SheetTrace {
   int sheet = 0;
   std::vector<ShareTrace> shares;
-  golden::Sums sums{};   ///< R, G, B, tau, before they saturate
+  golden::Sums sums{};   ///< R, G, B, tau, saturated by step sheet
   double factor = 1.0;   ///< (1-exp(-tau))/tau
   RealSlab slab;         ///< its colour and opacity
   golden::Sums after{};  ///< C_R, C_G, C_B, T behind it; an X-ray's sums
@@ -52,8 +52,6 @@ class PixelChain {
   PixelChain(const Chain& chain, int x, int y, int threads);
 
   PixelTrace operator()(const Mixture& mixture) const;
-  int x() const { return x_; }
-  int y() const { return y_; }
 
  private:
   Staged staged(const Mixture& mixture) const;

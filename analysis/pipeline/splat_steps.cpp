@@ -25,6 +25,11 @@ cmodel::Config without_end(cmodel::Config config) {
 
 }  // namespace
 
+glm::ivec3 voxel_of(const volume::Volume& volume, const scene::Splat& splat) {
+  // Positions are floats, far nearer to their voxel than to any other.
+  return {glm::round(volume.to_grid(glm::dvec3(splat.position)) / volume.spacing + 0.5 * glm::dvec3(volume.dims - 1))};
+}
+
 SplatList::SplatList(const scene::Scene& scene) {
   const bool densities = driver::holds_densities(scene.description);
   const scene::Traversal traversal(scene, densities ? scene::SplatKind::Densities : scene::SplatKind::Colours);
@@ -51,9 +56,7 @@ SplatList SplatList::part(std::span<const std::uint32_t> which) const {
 
 void SplatList::order_densities(const volume::Volume& volume) {
   const auto voxel_of = [&](const scene::Splat& splat) {
-    // Positions are floats, far nearer to their voxel than to any other.
-    const glm::ivec3 at(
-        glm::round(volume.to_grid(glm::dvec3(splat.position)) / volume.spacing + 0.5 * glm::dvec3(volume.dims - 1)));
+    const glm::ivec3 at = stages::voxel_of(volume, splat);
     return volume.index(at.x, at.y, at.z);
   };
   std::vector<std::pair<std::size_t, std::uint32_t>> order;  // voxel, number in the traversal

@@ -51,6 +51,9 @@ struct Staged {
   const StagedShape* shape(std::size_t i) const { return shapes.empty() ? nullptr : &shapes[i]; }
 };
 
+/// The voxel whose splat it is.
+glm::ivec3 voxel_of(const volume::Volume& volume, const scene::Splat& splat);
+
 /// The splats of a scene in golden's order within a nearest sheet: traversal order, densities in memory order. Each has
 /// the line of voxels on which it lies (scene::Traversal).
 struct SplatList {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // fastsplat pixel: how one pixel comes about, device beside real.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/pixel_report.hpp"
@@ -26,16 +25,11 @@ struct PixelArguments {
   std::optional<int> sheet;
 };
 
-std::optional<int> coordinate(std::string_view text) {
-  const auto number = number_from(text);
-  return number && *number == std::floor(*number) && std::abs(*number) < 1e6 ? std::optional(static_cast<int>(*number))
-                                                                             : std::nullopt;
-}
-
 glm::ivec2 place_of(const std::string& text) {
   const auto comma = text.find(',');
-  const auto x = coordinate(std::string_view(text).substr(0, comma));
-  const auto y = comma == std::string::npos ? std::nullopt : coordinate(std::string_view(text).substr(comma + 1));
+  const auto x = integer_from<int>(std::string_view(text).substr(0, comma));
+  const auto y =
+      comma == std::string::npos ? std::nullopt : integer_from<int>(std::string_view(text).substr(comma + 1));
   if (!x || !y) {
     throw_usage({.where = "pixel",
                  .what = "not a pixel",

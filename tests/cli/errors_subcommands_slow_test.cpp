@@ -178,6 +178,8 @@ TEST(Pixel, RefusesWhatIsNoPixel) {
     const auto result = fastsplat(with({"pixel", place, "--config", "tiny"}, kSmall));
     expect_error(result, 2, {line});
   }
+  expect_error(fastsplat(with({"pixel", "9,11", "--config", "tiny", "--sheet", "900"}, kSmall)), 2,
+               {"--sheet: no splat of the pixel is in this sheet", "got 900"});
 }
 
 }  // namespace

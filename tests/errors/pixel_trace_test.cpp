@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "analysis/errors/pixel_report.hpp"
 #include "analysis/pipeline/weight_steps.hpp"
@@ -127,7 +129,7 @@ void against_taps(const scene::Scene& scene, const cmodel::Config& config, Rando
       EXPECT_EQ(weights.size(), ours.size());
       for (std::size_t i = 0; i < std::min(weights.size(), ours.size()); ++i) all.add(ours[i], weights[i]);
       for (std::size_t c = 0; c < 4; ++c) {
-        all.add(std::min(word(sheet.sums[c], sf), static_cast<double>(config.sheet_format().max)), theirs.sums[c]);
+        all.add(word(sheet.sums[c], sf), theirs.sums[c]);
         all.add(word(sheet.after[c], state_bits), theirs.after[c]);
       }
       if (xray || scene.description.slab_opacity == scene::SlabOpacity::Additive) continue;
@@ -233,6 +235,53 @@ TEST(PixelTrace, FollowsErrorDiffusion) {
   }
   std::printf("[figure] pixels compared = %zu, different = %zu\n", compared, different);
   EXPECT_EQ(different, 0U);
+}
+
+// In the JSON: a splat has its own quantities on a side that has no share of it in the first sheet.
+TEST(PixelReport, WordsAreIntegersAndSplatsWhole) {
+  Random random(55);
+  std::size_t words = 0, fractions = 0, splats = 0, torn = 0;
+  for (int round = 0; round < 30; ++round) {
+    const auto kind = static_cast<cmodel::IndexKind>(round % 6);
+    const cmodel::Config config = round % 2 == 0 || kind == cmodel::IndexKind::Linear
+                                      ? fastsplat::test::random_config(random, kind)
+                                      : fastsplat::test::random_ellipse_config(random, kind);
+    const scene::Scene scene = scene::build_scene(test::random_scene(random));
+    try {
+      const Chain chain(scene, config);
+      const auto report = analysis::explain(chain, scene.description.width / 2, scene.description.height / 2, 1);
+      const auto json = analysis::to_json(report, chain);
+      const auto take = [&](const nlohmann::ordered_json& quantities) {
+        for (const auto& [name, one] : quantities.items()) {
+          if (one.at("word").is_null()) continue;
+          ++words;
+          fractions += std::floor(one.at("word").get<double>()) == one.at("word").get<double>() ? 0 : 1;
+        }
+      };
+      take(json.at("pixel"));
+      for (const auto& sheet : json.at("sheets")) {
+        take(sheet.at("together"));
+        for (const auto& share : sheet.at("shares")) take(share.at("values"));
+      }
+      std::size_t of_device = 0;
+      for (const auto& splat : json.at("splats")) {
+        take(splat.at("values"));
+        of_device += splat.at("values").at("weight").at("device").is_null() ? 0 : 1;
+      }
+      splats += of_device;
+      std::set<std::uint32_t> seen;  // by the device, in a sheet that is composited
+      for (const auto& sheet : report.device.sheets)
+        for (const auto& share : sheet.shares) seen.insert(share.splat);
+      torn += of_device < seen.size() ? 1 : 0;
+    } catch (const UserError&) {
+      continue;  // the device cannot draw this scene
+    }
+  }
+  std::printf("[figure] words = %zu, not integers = %zu; splats of the device = %zu, pixels that lack some = %zu\n",
+              words, fractions, splats, torn);
+  EXPECT_GT(words, 1000U);
+  EXPECT_EQ(fractions, 0U);
+  EXPECT_EQ(torn, 0U);
 }
 
 TEST(PixelTrace, PartsAddUpToTheError) {

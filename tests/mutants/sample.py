@@ -64,7 +64,7 @@ chosen = {}
 for line, name, check in FIXED:
     of = [m for m in sample if m["source"] == line and campaign.name_of(m) == name]
     if not of:
-        failures.append(f"there is no mutant '{name}' of: {line}")
+        failures.append(f"mutant not found: '{name}' of: {line}")
     else:
         chosen[of[0]["number"]] = (line, name, check)
 results = campaign.run(f"{build}/bin/check_mutants_sample", f"{source}/tests/mutants/corners.toml", [*chosen, planted["number"]], 1)
@@ -85,7 +85,7 @@ for program in dict.fromkeys(program for program, *_ in OVER_TESTS):
     for line, name, test in [entry for of, *entry in OVER_TESTS if of == program]:
         of = [m["number"] for m in listed if m["source"] == line and campaign.name_of(m) == name]
         if not of:
-            failures.append(f"there is no mutant '{name}' of: {line}")
+            failures.append(f"mutant not found: '{name}' of: {line}")
         wanted.update({number: (line, name, test) for number in of[:1]})
     for number, (verdict, said) in cpp_campaign.run(f"{build}/bin/mutants_{program}", list(wanted), 1).items():
         line, name, test = wanted[number]

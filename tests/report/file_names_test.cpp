@@ -15,24 +15,24 @@ std::string shown(const std::string& text) { return without_folders(Json(text)).
 
 TEST(FileNames, PathsBecomeNamesWhereverTheyStand) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"/home/jane/scan.nii.gz", "scan.nii.gz"},
-      {"/home/jane/my scans/scan 1.nii", "scan 1.nii"},
+      {"/Users/jane/scan.nii.gz", "scan.nii.gz"},
+      {"/Users/jane/my scans/scan 1.nii", "scan 1.nii"},
       {"/home/O'Neil/scan.nii", "scan.nii"},
       {"~/scans/a.nii", "a.nii"},
       {"~jane/a.nii", "a.nii"},
       {"../jane/a.nii", "a.nii"},
       {"../../a.nii", "a.nii"},
-      {"file:///home/jane/a.html", "a.html"},
-      {"/home/jane", "."},
-      {"/home/jane/", "."},
+      {"file:///Users/jane/a.html", "a.html"},
+      {"/home/O'Neil", "."},
+      {"/home/O'Neil/", "."},
       {"/srv/jane/results/", "results/"},
-      {"fastsplat compare /home/jane/a.exr '/home/jane doe/b c.exr' --map=/srv/jane/m.png -o/srv/jane/x.png --quiet",
+      {"fastsplat compare /Users/jane/a.exr '/Users/jane doe/b c.exr' --map=/srv/jane/m.png -o/srv/jane/x.png --quiet",
        "fastsplat compare a.exr 'b c.exr' --map=m.png -ox.png --quiet"},
       {"fastsplat info '/home/O'\\''Neil/x.exr' --json", "fastsplat info 'x.exr' --json"},
-      {"volume = \"/home/jane doe/a \\\"b\\\".nii\"\nwidth = 8\n", "volume = \"a \\\"b\\\".nii\"\nwidth = 8\n"},
-      {"/home/jane/a.exr: no such file (expected /srv/jane/b.exr, or ../x/c.exr).",
+      {"volume = \"/Users/jane doe/a \\\"b\\\".nii\"\nwidth = 8\n", "volume = \"a \\\"b\\\".nii\"\nwidth = 8\n"},
+      {"/Users/jane/a.exr: no such file (expected /srv/jane/b.exr, or ../x/c.exr).",
        "a.exr: no such file (expected b.exr, or c.exr)."},
-      {"ROLE=/home/jane/a.exr,/home/jane/b.exr", "ROLE=a.exr,b.exr"},
+      {"ROLE=/Users/jane/a.exr,/Users/jane/b.exr", "ROLE=a.exr,b.exr"},
       {"C:/Users/jane/a.exr", "C:a.exr"}};
   for (const auto& [text, wanted] : cases) EXPECT_EQ(shown(text), wanted);
   std::printf("[figure] texts with paths = %zu (limit > 0)\n", cases.size());
@@ -47,16 +47,17 @@ TEST(FileNames, OtherTextStaysAsItIs) {
 }
 
 TEST(FileNames, ValuesAndKeysOfAnyDepthAreSeen) {
-  const Json data{{"/home/jane/key.sv", Json::array({1, nullptr, true, {{"file", "/home/jane/a.exr"}}})},
+  const Json data{{"/Users/jane/key.sv", Json::array({1, nullptr, true, {{"file", "/Users/jane/a.exr"}}})},
                   {"number", 0.25}};
   EXPECT_EQ(without_folders(data),
             Json({{"key.sv", Json::array({1, nullptr, true, {{"file", "a.exr"}}})}, {"number", 0.25}}));
 }
 
 TEST(FileNames, EqualNamesOfTwoFoldersAreDisambiguated) {
-  const Json data{{"command", "fastsplat compare /home/jane/a/out.exr /home/jane/b/out.exr --map /home/jane/b/map.png"},
-                  {"ref", "/home/jane/a/out.exr"},
-                  {"test", "/home/jane/b/out.exr"}};
+  const Json data{
+      {"command", "fastsplat compare /Users/jane/a/out.exr /Users/jane/b/out.exr --map /Users/jane/b/map.png"},
+      {"ref", "/Users/jane/a/out.exr"},
+      {"test", "/Users/jane/b/out.exr"}};
   const Json cut = without_folders(data);
   EXPECT_EQ(cut["command"], "fastsplat compare out.exr folder-2/out.exr --map folder-2/map.png");
   EXPECT_EQ(cut["ref"], "out.exr");
@@ -73,7 +74,7 @@ TEST(FileNames, AFolderIsOneInACommandAndElsewhere) {
 
 /// A message does not quote its files; the text around a path shows where it ends.
 TEST(FileNames, FoldersWithBlanksLeaveMessagesToo) {
-  const Json data{{"file", "/home/jane doe/a.exr"}, {"remark", "cannot open /home/jane doe/b.exr: no such file"}};
+  const Json data{{"file", "/Users/jane doe/a.exr"}, {"remark", "cannot open /Users/jane doe/b.exr: no such file"}};
   EXPECT_EQ(without_folders(data)["remark"], "cannot open b.exr: no such file");
 }
 

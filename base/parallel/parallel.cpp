@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel/parallel.hpp"
 
+#ifndef __EMSCRIPTEN__
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +16,14 @@
 
 namespace fastsplat {
 
+#ifdef __EMSCRIPTEN__
+// One thread: a page from disk gets no more (shared memory needs a server's headers).
+std::size_t thread_count(int /*threads*/) { return 1; }
+
+void parallel_for(std::size_t count, int /*threads*/, const std::function<void(std::size_t)>& job) {
+  for (std::size_t i = 0; i < count; ++i) job(i);
+}
+#else
 std::size_t thread_count(int threads) {
   return static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency());
 }
@@ -43,6 +53,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
         tbb::simple_partitioner());
   });
 }
+#endif
 
 void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job) {
   std::vector<std::size_t> order(work.size());

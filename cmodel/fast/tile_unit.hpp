@@ -47,7 +47,7 @@ struct WaitingRecord {
   std::uint16_t set;
   bool counted;  ///< PlacedFootprint::counted
 };
-static_assert(sizeof(WaitingRecord) == 32, "two to a cache line");
+static_assert(sizeof(WaitingRecord) <= 32, "two to a cache line");
 
 /// Whether a unit counts as the device does, or draws the same words without counters: hidden splats may then be left
 /// out.

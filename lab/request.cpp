@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/shell_word.hpp"
+#include "base/suggest.hpp"
+#include "driver/config/changed.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/config/config_text.hpp"
+#include "scene/settings.hpp"
+
+namespace fastsplat::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json, const char* key, const std::string& otherwise) {
+  const auto found = json.find(key);
+  return found == json.end() ? otherwise : found->get<std::string>();
+}
+
+const scene::Setting& setting_named(const std::string& name) {
+  const auto all = scene::settings();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return scene::dotted(one) == name; });
+  if (found != all.end()) return *found;
+  std::vector<std::string> names;
+  for (const auto& one : all) names.push_back(scene::dotted(one));
+  throw_usage({.where = name, .what = "unknown setting", .expected = {}, .got = {}, .fix = suggestion(name, names)});
+}
+
+bool is_idle(const Request& read, const std::string& name) {
+  return std::ranges::any_of(read.idle, [&](const Idle& one) { return one.setting == name; });
+}
+
+bool shapes_kernel(const std::string& setting) { return setting == "kernel.a" || setting == "kernel.radius"; }
+
+scene::SceneDescription described(const Json& json, std::vector<scene::Given>& given) {
+  scene::SceneDescription to;
+  to.volume = text_of(json, "volume", to.volume);
+  to.transfer_function = text_of(json, "tf", "");
+  to.kernel = text_of(json, "kernel", to.kernel);
+  const Json settings = json.value("settings", Json::object());
+  for (const auto& [name, value] : settings.items()) {
+    const scene::Setting& setting = setting_named(name);
+    const auto text = value.get<std::string>();
+    if (const auto problem = scene::problem_with(setting, text); !problem.empty())
+      throw_usage({.where = name, .what = problem, .expected = {}, .got = {}, .fix = {}});
+    if (shapes_kernel(name) && !to.kernel.empty()) {  // one of the two alone keeps the other of the named kernel
+      const auto named = scene::kernel_by_name(to.kernel);
+      to.kernel_a = named.a();
+      to.kernel_radius = named.radius();
+      to.kernel.clear();
+    }
+    scene::set_from_text(setting, text, to);
+    given.push_back({&setting});
+  }
+  return to;
+}
+
+}  // namespace
+
+Request read_request(const Json& json) {
+  Request out;
+  std::vector<scene::Given> given;
+  out.scene = described(json, given);
+  // A setting may make another one idle, so one goes at a time.
+  while (true) {
+    const auto idle = scene::idle_of(given, out.scene);
+    if (idle.empty()) break;
+    const scene::Given& first = idle.front();
+    out.idle.push_back({scene::dotted(*first.setting), one_line(*scene::refusal(first, out.scene))});
+    std::erase_if(given, [&](const auto& one) { return one.setting == first.setting; });
+    Json less = json;
+    Json settings = Json::object();
+    for (const auto& one : given) settings[scene::dotted(*one.setting)] = json["settings"][scene::dotted(*one.setting)];
+    less["settings"] = settings;
+    std::vector<scene::Given> same;
+    out.scene = described(less, same);
+  }
+  const std::string toml = text_of(json, "toml", "");
+  out.config = toml.empty() ? driver::load_config(text_of(json, "config", "base"))
+                            : driver::parse_config("configuration", toml);
+  out.config = driver::changed(out.config, json.value("changes", std::vector<std::string>{}));
+  return out;
+}
+
+std::string command_line(const Json& request, const Request& read) {
+  const scene::SceneDescription& d = read.scene;
+  std::string line = fmt::format("fastsplat render --volume {}", shell_word(d.volume));
+  if (!d.transfer_function.empty()) line += " --tf " + shell_word(d.transfer_function);
+  if (!d.kernel.empty() && d.kernel != scene::SceneDescription{}.kernel) line += " --kernel " + shell_word(d.kernel);
+  line += d.width == d.height ? fmt::format(" --size {}", d.width) : fmt::format(" --size {}x{}", d.width, d.height);
+  const Json settings = request.value("settings", Json::object());
+  for (const auto& [name, value] : settings.items()) {
+    const auto& setting = setting_named(name);
+    if (is_idle(read, name)) continue;
+    if (scene::at_default(setting, d)) continue;
+    if (name == "camera.projection") line += " --perspective";
+    if (*setting.flag != '\0') line += fmt::format(" {} {}", setting.flag, shell_word(value.get<std::string>()));
+  }
+  line += " --engine cmodel --config " + shell_word(text_of(request, "toml", "").empty() ? text_of(request, "config", "base") : "mine.toml");
+  for (const auto& change : request.value("changes", std::vector<std::string>{})) line += " --set " + shell_word(change);
+  return line + " --out device.exr";
+}
+
+}  // namespace fastsplat::lab

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page asks for: a scene and a configuration by the words of the command line.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "cmodel/numbers/config.hpp"
+#include "scene/capability.hpp"
+#include "scene/scene.hpp"
+
+namespace fastsplat::lab {
+
+/// A setting that was asked for but has no effect on the scene, and why.
+struct Idle {
+  std::string setting;  ///< as scene::dotted
+  std::string reason;
+};
+
+/// {"volume": "shells:64", "tf": "", "kernel": "gauss2", "settings": {"camera.azimuth": "30", ...},
+///  "config": "base", "changes": ["radial.entries=256"]}; each key may be absent. Values are texts as flags take them.
+struct Request {
+  scene::SceneDescription scene;
+  cmodel::Config config;
+  std::vector<Idle> idle;  ///< left out of `scene`
+};
+
+/// Throws UserError about the first invalid value. `toml`, if not empty, is a configuration file's text instead of
+/// "config" and "changes".
+Request read_request(const nlohmann::ordered_json& json);
+
+/// `fastsplat render` with the flags that give this scene and, unless `config` is empty, this device.
+std::string command_line(const nlohmann::ordered_json& request, const Request& read);
+
+}  // namespace fastsplat::lab

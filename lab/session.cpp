@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "analysis/compare.hpp"
+#include "analysis/errors/attribution.hpp"
+#include "analysis/errors/attribution_report.hpp"
+#include "analysis/errors/cost.hpp"
+#include "analysis/errors/pixel_report.hpp"
+#include "analysis/errors/synthesised.hpp"
+#include "analysis/pipeline/chain.hpp"
+#include "base/error.hpp"
+#include "base/fnv1a.hpp"
+#include "base/hash_text.hpp"
+#include "base/json_text.hpp"
+#include "base/srgb.hpp"
+#include "cmodel/cycles/cycle_model.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/cull_log.hpp"
+#include "driver/tiles/frame_head.hpp"
+#include "driver/tiles/render.hpp"
+#include "driver/tiles/run_device.hpp"
+#include "golden/render.hpp"
+#include "lab/tables.hpp"
+#include "scene/volume/volume_file.hpp"
+
+namespace fastsplat::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kFloatScale = 1 << 16;  ///< of golden's words, as in a report
+constexpr std::size_t kScenes = 4;             ///< kept at most
+constexpr std::int64_t kMostVoxels = 40'000'000;
+
+std::uint64_t hash_of(const cmodel::Frame& frame) {
+  std::uint64_t hash = kFnv1aStart;
+  for (const std::uint32_t word : frame.words) hash = fnv1a(hash, std::uint64_t{word});
+  return hash;
+}
+
+Words words_of(const std::string& id, const Image& image) {
+  Words out{.id = id, .width = image.width, .height = image.height, .channels = image.channels, .scale = kFloatScale, .words = {}};
+  out.words.reserve(image.data.size());
+  for (const float value : image.data)
+    out.words.push_back(std::isfinite(value) ? static_cast<std::int32_t>(std::lround(std::clamp(value, -16384.0F, 16384.0F) * static_cast<float>(kFloatScale))) : 0);
+  return out;
+}
+
+Words words_of(const std::string& id, const cmodel::Frame& frame) {
+  Words out{.id = id, .width = frame.width, .height = frame.height, .scale = std::int64_t{1} << frame.frac_bits, .int_bits = frame.int_bits, .words = {}};
+  out.words.assign(frame.words.begin(), frame.words.end());
+  return out;
+}
+
+/// A map for display: 8 bits, sRGB.
+Words display_words(const std::string& id, const Image& image) {
+  Words out{.id = id, .width = image.width, .height = image.height, .channels = image.channels, .scale = 255, .words = {}};
+  for (const float value : image.data) out.words.push_back(static_cast<std::int32_t>(std::lround(255.0 * srgb_encode(std::clamp(value, 0.0F, 1.0F)))));
+  return out;
+}
+
+template <class Counted>
+Json counted_json(const Counted& counted) {
+  Json out;
+  counted.for_each([&](const char* name, std::uint64_t value, const char*) { out[name] = value; });
+  return out;
+}
+
+Json config_json(const cmodel::Config& config) {
+  Json out{{"name", config.name}, {"hash", hash_text(cmodel::config_hash(config))}, {"values", Json::object()}};
+  for (const auto& key : cmodel::config_keys()) out["values"][key.name] = cmodel::text_of(config, key);
+  const bool counted = config.index() == cmodel::IndexKind::Rlut;
+  out["cost"] = counted ? analysis::to_json(analysis::cost(config)) : Json(nullptr);
+  out["synthesis"] = analysis::synthesised(config);
+  return out;
+}
+
+Json idle_json(const std::vector<Idle>& idle) {
+  Json out = Json::object();
+  for (const Idle& one : idle) out[one.setting] = one.reason;
+  return out;
+}
+
+}  // namespace
+
+std::shared_ptr<const volume::Volume> Session::volume_of(const scene::SceneDescription& description) {
+  const std::string key = description.volume + (description.nan_as ? fmt::format(" {}", *description.nan_as) : "");
+  if (key == volume_key_ && volume_) return volume_;
+  const volume::Volume head = volume::read_volume_header(description.volume);
+  const std::int64_t voxels = std::int64_t{head.dims.x} * head.dims.y * head.dims.z;
+  if (voxels > kMostVoxels) {
+    throw_usage({.where = description.volume,
+                 .what = "too large for a page",
+                 .expected = fmt::format("at most {} voxels", kMostVoxels),
+                 .got = fmt::format("{}", voxels),
+                 .fix = "use the program, or a smaller volume"});
+  }
+  volume_.reset();
+  scenes_.clear();
+  volume::ReadOptions options;
+  if (description.nan_as) options.nan_as = static_cast<float>(*description.nan_as);
+  volume_ = std::make_shared<const volume::Volume>(volume::load_volume(description.volume, options));
+  volume_key_ = key;
+  return volume_;
+}
+
+Session::Kept& Session::kept(const scene::SceneDescription& description) {
+  const std::string key = scene::to_toml(description);
+  const auto found = std::find_if(scenes_.begin(), scenes_.end(), [&](const auto& one) { return one->key == key; });
+  if (found != scenes_.end()) {
+    std::rotate(scenes_.begin(), found, found + 1);
+  } else {
+    auto volume = volume_of(description);
+    scenes_.insert(scenes_.begin(), std::make_unique<Kept>(Kept{key, scene::build_scene(description, std::move(volume)), {}}));
+    if (scenes_.size() > kScenes) scenes_.pop_back();
+  }
+  return *scenes_.front();
+}
+
+const Image& Session::golden_of(Kept& kept) {
+  if (kept.golden.data.empty()) {
+    scene::check_capability(kept.scene, scene::kOffersAll);
+    kept.golden = golden::render(kept.scene, {.threads = 1, .progress = {}});
+  }
+  return kept.golden;
+}
+
+Json Session::frame(const Json& json, std::vector<Words>& pictures) {
+  const Request request = read_request(json);
+  Kept& one = kept(request.scene);
+  const Image& golden = golden_of(one);
+  pictures.push_back(words_of("golden", golden));
+  Json out{{"idle", idle_json(request.idle)},
+           {"command", command_line(json, request)},
+           {"toml", scene::to_toml(request.scene)},
+           {"remarks", one.scene.remarks},
+           {"width", golden.width},
+           {"height", golden.height},
+           {"config", config_json(request.config)}};
+  try {
+    const auto drawn = driver::render(one.scene, request.config, {.threads = 1, .counters = json.value("counters", false), .progress = {}});
+    pictures.push_back(words_of("device", drawn.frame));
+    analysis::CompareOptions options;
+    options.threads = 1;
+    out["words_hash"] = hash_text(hash_of(drawn.frame));
+    out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(drawn.frame), options)));
+    out["counted"] = drawn.counted;
+    out["counters"] = counted_json(drawn.counters);
+    out["records"] = drawn.report.splat_records;
+    out["vectors"] = drawn.units.vectors != nullptr ? Json(drawn.units.vectors) : Json(nullptr);
+  } catch (const UserError& error) {
+    out["device_error"] = error.what();
+  }
+  return out;
+}
+
+Json Session::cycles(const Json& json) {
+  const Request request = read_request(json);
+  const scene::Scene& scene = kept(request.scene).scene;
+  const cmodel::Config& config = request.config;
+  if (auto wrong = cmodel::cycle_violation(config)) throw_usage(*wrong);
+  cmodel::CycleOptions options;
+  driver::CullRun culls;
+  if (config.culls()) {
+    culls = driver::run_culls(driver::CompiledFrame(scene, config, 1), 1, {});
+    options.culls = &culls.log;
+  }
+  Json out;
+  driver::run_device(
+      scene, config, [&](cmodel::PixelSink&) -> std::unique_ptr<cmodel::Device> { return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options); },
+      {.threads = 1, .progress = {}},
+      [&](const cmodel::Device& device) {
+        const auto& model = dynamic_cast<const cmodel::CycleModel&>(device);
+        out["actual"] = model.stalls().busy;
+        out["idle"] = model.idle_cycles();
+        out["end"] = model.end_cycle();
+        out["beats"] = model.sent_beats();
+        out["account"] = counted_json(model.account());
+        out["counters"] = counted_json(model.counters());
+      });
+  return out;
+}
+
+Json Session::errors(const Json& json, std::vector<Words>& pictures) {
+  const Request request = read_request(json);
+  const stages::Chain chain(kept(request.scene).scene, request.config);
+  const auto attribution = analysis::attribute(chain, {.quick = true, .threads = 1});
+  pictures.push_back(display_words("blame", analysis::blame_map(attribution)));
+  return analysis::to_json(attribution, std::nullopt);
+}
+
+Json Session::pixel(const Json& json) {
+  const Request request = read_request(json);
+  const stages::Chain chain(kept(request.scene).scene, request.config);
+  return analysis::to_json(analysis::explain(chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), chain);
+}
+
+Json Session::histogram(const Json& json) {
+  const Request request = read_request(json);
+  const scene::Scene& scene = kept(request.scene).scene;
+  const volume::Volume& volume = *scene.volume;
+  constexpr std::size_t kBins = 256;
+  std::vector<std::uint64_t> bins(kBins);
+  const double span = std::max(1e-30, static_cast<double>(volume.max) - volume.min);
+  for (const float voxel : volume.voxels) ++bins[std::min(kBins - 1, static_cast<std::size_t>((voxel - volume.min) / span * kBins))];
+  const auto tf = scene::resolved(scene.transfer_function, volume);
+  Json points = Json::array();
+  for (const auto& point : tf.points) points.push_back({{"at", point.at}, {"colour", {point.colour.r, point.colour.g, point.colour.b}}, {"opacity", point.opacity}});
+  return {{"min", volume.min}, {"max", volume.max}, {"bins", bins}, {"tf", tf.name}, {"points", points}, {"dims", {volume.dims.x, volume.dims.y, volume.dims.z}}};
+}
+
+Json Session::config(const Json& json) {
+  const Request request = read_request(json);
+  Json out = config_json(request.config);
+  out["toml"] = driver::to_toml(request.config);
+  return out;
+}
+
+Answer Session::answer(const std::string& request) {
+  Answer answer;
+  Json out;
+  try {
+    const Json json = Json::parse(request);
+    const auto ask = json.at("ask").get<std::string>();
+    if (ask == "tables") out = tables();
+    else if (ask == "frame") out = frame(json, answer.pictures);
+    else if (ask == "cycles") out = cycles(json);
+    else if (ask == "errors") out = errors(json, answer.pictures);
+    else if (ask == "pixel") out = pixel(json);
+    else if (ask == "histogram") out = histogram(json);
+    else if (ask == "config") out = config(json);
+    else throw_usage({.where = "ask", .what = "unknown request", .expected = {}, .got = ask, .fix = {}});
+  } catch (const UserError& error) {
+    out = {{"error", error.what()}};
+  } catch (const std::bad_alloc&) {
+    out = {{"error", "the page's memory is full: use a smaller volume or picture"}};
+  } catch (const std::exception& error) {
+    out = {{"error", error.what()}};
+  }
+  if (out.contains("error")) answer.pictures.clear();
+  Json list = Json::array();
+  for (const Words& words : answer.pictures)
+    list.push_back({{"id", words.id}, {"width", words.width}, {"height", words.height}, {"channels", words.channels}, {"scale", words.scale}, {"int_bits", words.int_bits}});
+  out["pictures"] = list;
+  answer.json = json_text(out, -1);
+  return answer;
+}
+
+}  // namespace fastsplat::lab

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers the page's requests: one JSON object in, one JSON object and pictures out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/image.hpp"
+#include "lab/request.hpp"
+#include "scene/scene.hpp"
+#include "scene/volume/volume.hpp"
+
+namespace fastsplat::lab {
+
+/// A picture of an answer: words as the report's viewer takes them, value = word / scale.
+struct Words {
+  std::string id;  ///< "golden", "device"
+  int width = 0, height = 0, channels = 4;
+  std::int64_t scale = 1;
+  int int_bits = -1;  ///< of the device's format; -1: floats, rounded to the scale
+  std::vector<std::int32_t> words;
+};
+
+struct Answer {
+  std::string json;  ///< {"error": "one line"} if the request cannot be answered
+  std::vector<Words> pictures;
+};
+
+/// Keeps volumes, scenes and golden pictures between requests, at most a few of each.
+class Session {
+ public:
+  /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "pixel" | "histogram" | "config", ...} with the keys
+  /// of lab/request.hpp (lab/README: docs/lab.md has them). Never throws.
+  Answer answer(const std::string& request);
+
+ private:
+  struct Kept {
+    std::string key;
+    scene::Scene scene;
+    Image golden;  ///< empty until it is asked for
+  };
+
+  std::shared_ptr<const volume::Volume> volume_of(const scene::SceneDescription& description);
+  Kept& kept(const scene::SceneDescription& description);
+  const Image& golden_of(Kept& kept);
+
+  nlohmann::ordered_json frame(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
+  nlohmann::ordered_json cycles(const nlohmann::ordered_json& json);
+  nlohmann::ordered_json errors(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
+  nlohmann::ordered_json pixel(const nlohmann::ordered_json& json);
+  nlohmann::ordered_json histogram(const nlohmann::ordered_json& json);
+  nlohmann::ordered_json config(const nlohmann::ordered_json& json);
+
+  std::string volume_key_;
+  std::shared_ptr<const volume::Volume> volume_;
+  std::vector<std::unique_ptr<Kept>> scenes_;  ///< the last used first
+};
+
+}  // namespace fastsplat::lab

@@ -83,8 +83,8 @@ Request read_request(const Json& json) {
     out.scene = described(less, same);
   }
   const std::string toml = text_of(json, "toml", "");
-  out.config = toml.empty() ? driver::load_config(text_of(json, "config", "base"))
-                            : driver::parse_config("configuration", toml);
+  out.config =
+      toml.empty() ? driver::load_config(text_of(json, "config", "base")) : driver::parse_config("configuration", toml);
   out.config = driver::changed(out.config, json.value("changes", std::vector<std::string>{}));
   return out;
 }
@@ -103,8 +103,10 @@ std::string command_line(const Json& request, const Request& read) {
     if (name == "camera.projection") line += " --perspective";
     if (*setting.flag != '\0') line += fmt::format(" {} {}", setting.flag, shell_word(value.get<std::string>()));
   }
-  line += " --engine cmodel --config " + shell_word(text_of(request, "toml", "").empty() ? text_of(request, "config", "base") : "mine.toml");
-  for (const auto& change : request.value("changes", std::vector<std::string>{})) line += " --set " + shell_word(change);
+  line += " --engine cmodel --config " +
+          shell_word(text_of(request, "toml", "").empty() ? text_of(request, "config", "base") : "mine.toml");
+  for (const auto& change : request.value("changes", std::vector<std::string>{}))
+    line += " --set " + shell_word(change);
   return line + " --out device.exr";
 }
 

@@ -28,6 +28,7 @@
 #include "driver/tiles/run_device.hpp"
 #include "golden/render.hpp"
 #include "lab/tables.hpp"
+#include "scene/settings.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::lab {
@@ -46,23 +47,38 @@ std::uint64_t hash_of(const cmodel::Frame& frame) {
 }
 
 Words words_of(const std::string& id, const Image& image) {
-  Words out{.id = id, .width = image.width, .height = image.height, .channels = image.channels, .scale = kFloatScale, .words = {}};
+  Words out{.id = id,
+            .width = image.width,
+            .height = image.height,
+            .channels = image.channels,
+            .scale = kFloatScale,
+            .words = {}};
   out.words.reserve(image.data.size());
   for (const float value : image.data)
-    out.words.push_back(std::isfinite(value) ? static_cast<std::int32_t>(std::lround(std::clamp(value, -16384.0F, 16384.0F) * static_cast<float>(kFloatScale))) : 0);
+    out.words.push_back(std::isfinite(value)
+                            ? static_cast<std::int32_t>(
+                                  std::lround(std::clamp(value, -16384.0F, 16384.0F) * static_cast<float>(kFloatScale)))
+                            : 0);
   return out;
 }
 
 Words words_of(const std::string& id, const cmodel::Frame& frame) {
-  Words out{.id = id, .width = frame.width, .height = frame.height, .scale = std::int64_t{1} << frame.frac_bits, .int_bits = frame.int_bits, .words = {}};
+  Words out{.id = id,
+            .width = frame.width,
+            .height = frame.height,
+            .scale = std::int64_t{1} << frame.frac_bits,
+            .int_bits = frame.int_bits,
+            .words = {}};
   out.words.assign(frame.words.begin(), frame.words.end());
   return out;
 }
 
 /// A map for display: 8 bits, sRGB.
 Words display_words(const std::string& id, const Image& image) {
-  Words out{.id = id, .width = image.width, .height = image.height, .channels = image.channels, .scale = 255, .words = {}};
-  for (const float value : image.data) out.words.push_back(static_cast<std::int32_t>(std::lround(255.0 * srgb_encode(std::clamp(value, 0.0F, 1.0F)))));
+  Words out{
+      .id = id, .width = image.width, .height = image.height, .channels = image.channels, .scale = 255, .words = {}};
+  for (const float value : image.data)
+    out.words.push_back(static_cast<std::int32_t>(std::lround(255.0 * srgb_encode(std::clamp(value, 0.0F, 1.0F)))));
   return out;
 }
 
@@ -80,6 +96,23 @@ Json config_json(const cmodel::Config& config) {
   out["cost"] = counted ? analysis::to_json(analysis::cost(config)) : Json(nullptr);
   out["synthesis"] = analysis::synthesised(config);
   return out;
+}
+
+/// A resolved transfer function as a file of the product's.
+std::string toml_of(const scene::TransferFunction& tf) {
+  const auto number = scene::number_as_toml;
+  std::string text =
+      fmt::format("domain = \"value\"\nreference_length = {}\npoints = [\n", number(tf.reference_length));
+  for (const auto& point : tf.points) {
+    text += fmt::format("  {{at = {}, colour = [{}, {}, {}], opacity = {}}},\n", number(point.at),
+                        number(point.colour.r), number(point.colour.g), number(point.colour.b), number(point.opacity));
+  }
+  text += "]\n";
+  if (!tf.shading.on) return text;
+  return text +
+         fmt::format("[shading]\nambient = {}\ndiffuse = {}\nspecular = {}\nshininess = {}\ngradient_floor = {}\n",
+                     number(tf.shading.ambient), number(tf.shading.diffuse), number(tf.shading.specular),
+                     number(tf.shading.shininess), number(tf.shading.gradient_floor));
 }
 
 Json idle_json(const std::vector<Idle>& idle) {
@@ -118,7 +151,8 @@ Session::Kept& Session::kept(const scene::SceneDescription& description) {
     std::rotate(scenes_.begin(), found, found + 1);
   } else {
     auto volume = volume_of(description);
-    scenes_.insert(scenes_.begin(), std::make_unique<Kept>(Kept{key, scene::build_scene(description, std::move(volume)), {}}));
+    scenes_.insert(scenes_.begin(),
+                   std::make_unique<Kept>(Kept{key, scene::build_scene(description, std::move(volume)), {}}));
     if (scenes_.size() > kScenes) scenes_.pop_back();
   }
   return *scenes_.front();
@@ -145,7 +179,8 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
            {"height", golden.height},
            {"config", config_json(request.config)}};
   try {
-    const auto drawn = driver::render(one.scene, request.config, {.threads = 1, .counters = json.value("counters", false), .progress = {}});
+    const auto drawn = driver::render(one.scene, request.config,
+                                      {.threads = 1, .counters = json.value("counters", false), .progress = {}});
     pictures.push_back(words_of("device", drawn.frame));
     analysis::CompareOptions options;
     options.threads = 1;
@@ -174,7 +209,10 @@ Json Session::cycles(const Json& json) {
   }
   Json out;
   driver::run_device(
-      scene, config, [&](cmodel::PixelSink&) -> std::unique_ptr<cmodel::Device> { return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options); },
+      scene, config,
+      [&](cmodel::PixelSink&) -> std::unique_ptr<cmodel::Device> {
+        return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
+      },
       {.threads = 1, .progress = {}},
       [&](const cmodel::Device& device) {
         const auto& model = dynamic_cast<const cmodel::CycleModel&>(device);
@@ -209,11 +247,20 @@ Json Session::histogram(const Json& json) {
   constexpr std::size_t kBins = 256;
   std::vector<std::uint64_t> bins(kBins);
   const double span = std::max(1e-30, static_cast<double>(volume.max) - volume.min);
-  for (const float voxel : volume.voxels) ++bins[std::min(kBins - 1, static_cast<std::size_t>((voxel - volume.min) / span * kBins))];
+  for (const float voxel : volume.voxels)
+    ++bins[std::min(kBins - 1, static_cast<std::size_t>((voxel - volume.min) / span * kBins))];
   const auto tf = scene::resolved(scene.transfer_function, volume);
   Json points = Json::array();
-  for (const auto& point : tf.points) points.push_back({{"at", point.at}, {"colour", {point.colour.r, point.colour.g, point.colour.b}}, {"opacity", point.opacity}});
-  return {{"min", volume.min}, {"max", volume.max}, {"bins", bins}, {"tf", tf.name}, {"points", points}, {"dims", {volume.dims.x, volume.dims.y, volume.dims.z}}};
+  for (const auto& point : tf.points)
+    points.push_back(
+        {{"at", point.at}, {"colour", {point.colour.r, point.colour.g, point.colour.b}}, {"opacity", point.opacity}});
+  return {{"min", volume.min},
+          {"max", volume.max},
+          {"bins", bins},
+          {"tf", tf.name},
+          {"toml", toml_of(tf)},
+          {"points", points},
+          {"dims", {volume.dims.x, volume.dims.y, volume.dims.z}}};
 }
 
 Json Session::config(const Json& json) {
@@ -229,14 +276,22 @@ Answer Session::answer(const std::string& request) {
   try {
     const Json json = Json::parse(request);
     const auto ask = json.at("ask").get<std::string>();
-    if (ask == "tables") out = tables();
-    else if (ask == "frame") out = frame(json, answer.pictures);
-    else if (ask == "cycles") out = cycles(json);
-    else if (ask == "errors") out = errors(json, answer.pictures);
-    else if (ask == "pixel") out = pixel(json);
-    else if (ask == "histogram") out = histogram(json);
-    else if (ask == "config") out = config(json);
-    else throw_usage({.where = "ask", .what = "unknown request", .expected = {}, .got = ask, .fix = {}});
+    if (ask == "tables")
+      out = tables();
+    else if (ask == "frame")
+      out = frame(json, answer.pictures);
+    else if (ask == "cycles")
+      out = cycles(json);
+    else if (ask == "errors")
+      out = errors(json, answer.pictures);
+    else if (ask == "pixel")
+      out = pixel(json);
+    else if (ask == "histogram")
+      out = histogram(json);
+    else if (ask == "config")
+      out = config(json);
+    else
+      throw_usage({.where = "ask", .what = "unknown request", .expected = {}, .got = ask, .fix = {}});
   } catch (const UserError& error) {
     out = {{"error", error.what()}};
   } catch (const std::bad_alloc&) {
@@ -247,7 +302,12 @@ Answer Session::answer(const std::string& request) {
   if (out.contains("error")) answer.pictures.clear();
   Json list = Json::array();
   for (const Words& words : answer.pictures)
-    list.push_back({{"id", words.id}, {"width", words.width}, {"height", words.height}, {"channels", words.channels}, {"scale", words.scale}, {"int_bits", words.int_bits}});
+    list.push_back({{"id", words.id},
+                    {"width", words.width},
+                    {"height", words.height},
+                    {"channels", words.channels},
+                    {"scale", words.scale},
+                    {"int_bits", words.int_bits}});
   out["pictures"] = list;
   answer.json = json_text(out, -1);
   return answer;

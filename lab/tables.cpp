@@ -23,12 +23,24 @@ template <class... Functions>
 Each(Functions...) -> Each<Functions...>;
 
 Json kind_of(const scene::Setting& setting) {
-  return std::visit(Each{[](const scene::Real& kind) { return Json{{"kind", "real"}, {"low", kind.low}, {"high", kind.high}}; },
-                         [](const scene::Integer& kind) { return Json{{"kind", "integer"}, {"low", kind.low}, {"high", kind.high}}; },
-                         [](const scene::Triple& kind) { return Json{{"kind", "triple"}, {"low", kind.low}, {"high", kind.high}}; },
-                         [](const scene::Box&) { return Json{{"kind", "box"}}; },
-                         [](const scene::Switch&) { return Json{{"kind", "choice"}, {"choices", {"off", "on"}}}; },
-                         [](const scene::Choice& kind) { return Json{{"kind", "choice"}, {"choices", kind.names()}}; }},
+  return std::visit(Each{[](const scene::Real& kind) {
+                           return Json{{"kind", "real"}, {"low", kind.low}, {"high", kind.high}};
+                         },
+                         [](const scene::Integer& kind) {
+                           return Json{{"kind", "integer"}, {"low", kind.low}, {"high", kind.high}};
+                         },
+                         [](const scene::Triple& kind) {
+                           return Json{{"kind", "triple"}, {"low", kind.low}, {"high", kind.high}};
+                         },
+                         [](const scene::Box&) {
+                           return Json{{"kind", "box"}};
+                         },
+                         [](const scene::Switch&) {
+                           return Json{{"kind", "choice"}, {"choices", {"off", "on"}}};
+                         },
+                         [](const scene::Choice& kind) {
+                           return Json{{"kind", "choice"}, {"choices", kind.names()}};
+                         }},
                     setting.value);
 }
 
@@ -43,12 +55,8 @@ std::string default_of(const scene::Setting& setting) {
 Json settings_json() {
   Json out = Json::array();
   for (const scene::Setting& setting : scene::settings()) {
-    Json one{{"name", scene::dotted(setting)},
-             {"flag", setting.flag},
-             {"group", setting.group},
-             {"unit", setting.unit},
-             {"help", setting.help},
-             {"default", default_of(setting)}};
+    Json one{{"name", scene::dotted(setting)}, {"flag", setting.flag}, {"group", setting.group},
+             {"unit", setting.unit},           {"help", setting.help}, {"default", default_of(setting)}};
     one.update(kind_of(setting));
     out.push_back(one);
   }
@@ -76,6 +84,10 @@ Json keys_json() {
 Json tables() {
   Json out{{"version", program_version()}, {"settings", settings_json()}, {"keys", keys_json()}};
   out["configs"] = driver::config_names();
+  for (const auto& name : driver::config_names()) {
+    const cmodel::Config config = driver::load_config(name);
+    out["config_about"].push_back({{"name", name}, {"description", config.description}});
+  }
   out["volumes"] = Json::array();
   for (const auto& name : volume::synthetic_names())
     out["volumes"].push_back({{"name", name}, {"size", volume::default_synthetic_size(name)}});

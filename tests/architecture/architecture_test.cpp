@@ -63,6 +63,7 @@ const Arrows kDrawn{
     {"analysis/sweep", {"base/toml"}},
     {"report", {"base/images"}},
     {"report/formats", {"report"}},
+    {"lab", {"driver/config", "analysis/errors"}},
     {"cli",
      {"golden", "driver/config", "driver/files", "testbench/triage", "testbench/closure", "testbench/faults",
       "analysis/errors", "analysis/index_kinds", "analysis/sweep", "report/formats"}},

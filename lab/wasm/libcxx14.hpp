@@ -48,9 +48,9 @@ requires is_floating_point_v<T> from_chars_result from_chars(const char* from, c
 
 namespace ranges {
 
-#define FASTSPLAT_OF_RANGE(name)                                     \
-  template <typename R, typename... More>                            \
-  constexpr auto name(R&& range, More&&... more) {                   \
+#define FASTSPLAT_OF_RANGE(name)                                             \
+  template <typename R, typename... More>                                    \
+  constexpr auto name(R&& range, More&&... more) {                           \
     return std::name(begin(range), end(range), std::forward<More>(more)...); \
   }
 FASTSPLAT_OF_RANGE(find_if)
@@ -68,20 +68,20 @@ FASTSPLAT_OF_RANGE(move)
 
 // Those that are used with a projection.
 #define FASTSPLAT_BY_TEST(name)                                                                                    \
-  template <typename R, typename Test, typename Projection = identity>                                              \
-  constexpr bool name(R&& range, Test test, Projection projection = {}) {                                           \
+  template <typename R, typename Test, typename Projection = identity>                                             \
+  constexpr bool name(R&& range, Test test, Projection projection = {}) {                                          \
     return std::name(begin(range), end(range), [&](auto&& one) { return invoke(test, invoke(projection, one)); }); \
   }
 FASTSPLAT_BY_TEST(any_of)
 FASTSPLAT_BY_TEST(all_of)
 #undef FASTSPLAT_BY_TEST
 
-#define FASTSPLAT_BY_ORDER(name)                                                                               \
-  template <typename R, typename Order = less, typename Projection = identity>                                  \
-  constexpr auto name(R&& range, Order order = {}, Projection projection = {}) {                                \
-    return std::name(begin(range), end(range), [&](auto&& a, auto&& b) {                                        \
-      return static_cast<bool>(invoke(order, invoke(projection, a), invoke(projection, b)));                    \
-    });                                                                                                         \
+#define FASTSPLAT_BY_ORDER(name)                                                             \
+  template <typename R, typename Order = less, typename Projection = identity>               \
+  constexpr auto name(R&& range, Order order = {}, Projection projection = {}) {             \
+    return std::name(begin(range), end(range), [&](auto&& a, auto&& b) {                     \
+      return static_cast<bool>(invoke(order, invoke(projection, a), invoke(projection, b))); \
+    });                                                                                      \
   }
 FASTSPLAT_BY_ORDER(max_element)
 FASTSPLAT_BY_ORDER(min_element)

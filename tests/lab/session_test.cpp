@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lab's engine answers as the libraries behind it do, in one line where it cannot, and never from a stale scene.
+#include "lab/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "analysis/compare.hpp"
+#include "base/fnv1a.hpp"
+#include "base/hash_text.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "driver/config/changed.hpp"
+#include "driver/config/config_file.hpp"
+#include "driver/tiles/render.hpp"
+#include "golden/render.hpp"
+#include "scene/settings.hpp"
+
+namespace fastsplat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Json kSmall{{"image.width", "40"}, {"image.height", "32"}};
+
+Json request(const std::string& ask, Json settings = kSmall, const std::string& config = "base") {
+  return {{"ask", ask}, {"volume", "shells:24"}, {"settings", std::move(settings)}, {"config", config}};
+}
+
+Json with(Json settings, const std::string& name, const std::string& value) {
+  settings[name] = value;
+  return settings;
+}
+
+TEST(LabSession, TablesHoldEverySettingAndKey) {
+  lab::Session session;
+  const Json tables = Json::parse(session.answer(R"({"ask":"tables"})").json);
+  EXPECT_EQ(tables["settings"].size(), scene::settings().size());
+  EXPECT_EQ(tables["keys"].size(), cmodel::config_keys().size());
+  EXPECT_EQ(tables["configs"], Json(driver::config_names()));
+  // Every default is a valid text of its setting.
+  std::size_t checked = 0;
+  for (std::size_t i = 0; i < tables["settings"].size(); ++i) {
+    const auto text = tables["settings"][i]["default"].get<std::string>();
+    if (text.empty()) continue;  // the box: everything
+    EXPECT_EQ(scene::problem_with(scene::settings()[i], text), "") << tables["settings"][i];
+    ++checked;
+  }
+  std::printf("[figure] settings = %zu, defaults checked = %zu (limit all but one)\n", scene::settings().size(),
+              checked);
+  EXPECT_EQ(checked + 1, scene::settings().size());
+}
+
+TEST(LabSession, AFrameIsTheDriversAndGoldens) {
+  lab::Session session;
+  std::size_t frames = 0;
+  for (const char* config : {"base", "tiny", "ellipse"}) {
+    for (const auto method : {scene::Method::ImageAligned, scene::Method::XRay}) {
+      Json asked = request("frame", with(kSmall, "method", scene::to_string(method)), config);
+      asked["changes"] = {"pixel.frac_bits=9"};
+      const lab::Answer answer = session.answer(asked.dump());
+      const Json json = Json::parse(answer.json);
+      ASSERT_FALSE(json.contains("error")) << json["error"];
+      ASSERT_EQ(answer.pictures.size(), 2U) << answer.json;
+
+      scene::SceneDescription description;
+      description.volume = "shells:24";
+      description.width = 40, description.height = 32;
+      description.method = method;
+      const scene::Scene scene = scene::build_scene(description);
+      const std::vector<std::string> changes{"pixel.frac_bits=9"};
+      const auto drawn = driver::render(scene, driver::changed(driver::load_config(config), changes));
+      const auto& words = answer.pictures[1].words;
+      EXPECT_TRUE(std::equal(words.begin(), words.end(), drawn.frame.words.begin(), drawn.frame.words.end(),
+                             [](std::int32_t a, std::uint32_t b) { return static_cast<std::uint32_t>(a) == b; }));
+      std::uint64_t hash = kFnv1aStart;
+      for (const std::uint32_t word : drawn.frame.words) hash = fnv1a(hash, std::uint64_t{word});
+      EXPECT_EQ(json["words_hash"], hash_text(hash));
+      const auto report = analysis::compare(golden::render(scene), driver::to_image(drawn.frame));
+      EXPECT_EQ(json["compare"], Json::parse(analysis::to_json(report)));
+      ++frames;
+    }
+  }
+  std::printf("[figure] frames equal = %zu (limit 6)\n", frames);
+}
+
+TEST(LabSession, IdleSettingsAreLeftOutWithTheirReason) {
+  lab::Session session;
+  const Json plain = Json::parse(session.answer(request("frame", with(kSmall, "method", "xray")).dump()).json);
+  const Json idle = Json::parse(
+      session.answer(request("frame", with(with(kSmall, "method", "xray"), "slabs.width", "3")).dump()).json);
+  EXPECT_EQ(idle["words_hash"], plain["words_hash"]);
+  ASSERT_TRUE(idle["idle"].contains("slabs.width"));
+  EXPECT_NE(idle["idle"]["slabs.width"].get<std::string>().find("has no slabs"), std::string::npos);
+  EXPECT_EQ(idle["command"].get<std::string>().find("--slab-width"), std::string::npos);
+  EXPECT_EQ(plain["idle"], Json::object());
+}
+
+TEST(LabSession, EverySettingAtItsDefaultChangesNothing) {
+  lab::Session session;
+  const Json tables = Json::parse(session.answer(R"({"ask":"tables"})").json);
+  Json all = kSmall;
+  for (const auto& setting : tables["settings"]) {
+    const auto name = setting["name"].get<std::string>();
+    if (all.contains(name) || name.starts_with("kernel.") || name == "crop") continue;
+    all[name] = setting["default"];
+  }
+  const Json plain = Json::parse(session.answer(request("frame").dump()).json);
+  const Json given = Json::parse(session.answer(request("frame", all).dump()).json);
+  ASSERT_FALSE(given.contains("error")) << given["error"];
+  EXPECT_EQ(given["words_hash"], plain["words_hash"]);
+  EXPECT_EQ(given["command"], plain["command"]);
+}
+
+TEST(LabSession, WhatIsKeptNeverShows) {
+  lab::Session session;
+  std::size_t asked = 0;
+  // Back and forth between volumes, scenes and devices, against a session that has seen nothing.
+  for (const char* order : {"abab", "aabbca", "cbacbd", "ddabcd"}) {
+    for (const char one : std::string(order)) {
+      Json json = request(asked % 3 == 2 ? "pixel" : "frame");
+      if (one == 'b') json["settings"]["camera.azimuth"] = "10";
+      if (one == 'c') json["volume"] = "marschner-lobb:20";
+      if (one == 'd') json["config"] = "tiny";
+      json["x"] = 20, json["y"] = 15;
+      EXPECT_EQ(session.answer(json.dump()).json, lab::Session().answer(json.dump()).json) << json;
+      ++asked;
+    }
+  }
+  std::printf("[figure] answers equal to a fresh session's = %zu (limit 20)\n", asked);
+}
+
+TEST(LabSession, BadRequestsAreOneLineAndTheSessionGoesOn) {
+  lab::Session session;
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {"", "parse error"},
+      {"{}", "ask"},
+      {R"({"ask":"dance"})", "unknown request"},
+      {R"({"ask":"frame","config":"nothing"})", "no such configuration"},
+      {R"({"ask":"frame","volume":"nothing.nrrd"})", "nothing.nrrd"},
+      {R"({"ask":"frame","volume":"shells:1024"})", "too large for a page"},
+      {R"({"ask":"frame","settings":{"camera.azimut":"3"}})", "camera.azimuth"},
+      {R"({"ask":"frame","settings":{"camera.azimuth":"east"}})", "expected a finite number, got 'east'"},
+      {R"({"ask":"frame","changes":["tile.width=7"]})", "tile.width"},
+      {R"({"ask":"frame","toml":"x = 1"})", "configuration:1"},
+      {R"({"ask":"pixel","volume":"shells:16","settings":{"image.width":"8","image.height":"8"},"x":99,"y":0})", "99"},
+      {R"({"ask":"frame","settings":{"camera.azimuth":3}})", "string"},
+  };
+  for (const auto& [text, part] : bad) {
+    const lab::Answer answer = session.answer(text);
+    const Json json = Json::parse(answer.json);
+    ASSERT_TRUE(json.contains("error")) << text;
+    const auto line = json["error"].get<std::string>();
+    EXPECT_NE(line.find(part), std::string::npos) << text << " gave: " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    EXPECT_TRUE(answer.pictures.empty());
+    EXPECT_TRUE(Json::parse(session.answer(request("frame").dump()).json).contains("words_hash")) << "after " << text;
+  }
+  std::printf("[figure] refused in one line = %zu (limit 12)\n", bad.size());
+}
+
+TEST(LabSession, TheTransferFunctionAsAFileGivesTheSameWords) {
+  std::size_t equal = 0;
+  for (const char* preset : {"default", "mri-head", "binary", "linear"}) {
+    lab::Session session;
+    Json json = request("histogram");
+    json["tf"] = preset;
+    const Json histogram = Json::parse(session.answer(json.dump()).json);
+    const auto file = std::filesystem::path(testing::TempDir()) / (std::string("lab-") + preset + ".toml");
+    std::ofstream(file) << histogram["toml"].get<std::string>();
+    json["ask"] = "frame";
+    const Json named = Json::parse(session.answer(json.dump()).json);
+    json["tf"] = file.string();
+    const Json from_file = Json::parse(session.answer(json.dump()).json);
+    ASSERT_TRUE(from_file.contains("words_hash")) << from_file.dump().substr(0, 300);
+    EXPECT_EQ(from_file["words_hash"], named["words_hash"]) << preset;
+    equal += from_file["words_hash"] == named["words_hash"] ? 1 : 0;
+    std::filesystem::remove(file);
+  }
+  std::printf("[figure] presets equal as files = %zu (limit 4)\n", equal);
+}
+
+TEST(LabSession, CyclesCostsAndHistogramAddUp) {
+  lab::Session session;
+  const Json cycles = Json::parse(session.answer(request("cycles").dump()).json);
+  std::uint64_t sum = 0;
+  for (const auto& [name, count] : cycles["account"].items()) sum += count.get<std::uint64_t>();
+  EXPECT_EQ(sum, cycles["actual"].get<std::uint64_t>());
+  EXPECT_GT(sum, 0U);
+  const Json histogram = Json::parse(session.answer(request("histogram").dump()).json);
+  std::uint64_t voxels = 0;
+  for (const auto& count : histogram["bins"]) voxels += count.get<std::uint64_t>();
+  EXPECT_EQ(voxels, 24U * 24U * 24U);
+  const Json config = Json::parse(session.answer(request("config").dump()).json);
+  EXPECT_EQ(config["values"].size(), cmodel::config_keys().size());
+  EXPECT_GT(config["cost"]["adder_bits"].get<double>(), 0.0) << config["cost"];
+  std::printf("[figure] cycles = %llu, voxels counted = %llu\n", static_cast<unsigned long long>(sum),
+              static_cast<unsigned long long>(voxels));
+}
+
+}  // namespace
+}  // namespace fastsplat

@@ -98,6 +98,10 @@ export class Viewer {
     this.redraw();
   }
 
+  get link(): string {
+    return link_of(this.state);
+  }
+
   /** Adds a view to those side by side. */
   present(key: string): void {
     const show = this.state.show.includes(key) ? this.state.show : [...this.state.show, key];

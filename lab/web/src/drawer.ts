@@ -24,8 +24,11 @@ export interface Shown {
 
 export class Drawer {
   private timer = 0;
-  private last_ms = 0;
+  /** Time of the last frame at rest; before the first one, unknown. */
+  private last_ms = Infinity;
   private last = 0;
+  /** The state that was drawn at rest last, or is being drawn. */
+  private resting: Lab | null = null;
 
   constructor(
     private readonly engine: Engine,
@@ -44,12 +47,20 @@ export class Drawer {
     const small = reduced(lab, draft_side);
     const reducible = small.width < lab.width || small.height < lab.height;
     const turn = ++this.last;
+    // A slider that is released repeats its last value, which is drawn once.
+    if (lab === this.resting) return;
+    this.resting = null;
     if (reducible && (live || this.last_ms > slow_ms)) void this.ask(lab, true, turn);
-    if (!live || !reducible) void this.ask(lab, false, turn);
+    if (!live || !reducible) void this.rest(lab, turn);
     else this.timer = window.setTimeout(() => this.draw(false), rest_ms);
   }
 
-  private async ask(lab: Lab, draft: boolean, turn: number): Promise<void> {
+  private async rest(lab: Lab, turn: number): Promise<void> {
+    this.resting = lab;
+    if (!(await this.ask(lab, false, turn)) && this.resting === lab) this.resting = null;
+  }
+
+  private async ask(lab: Lab, draft: boolean, turn: number): Promise<boolean> {
     const begun = performance.now();
     this.prepare(lab);
     try {
@@ -57,9 +68,11 @@ export class Drawer {
       const { json, pictures, ms } = await this.engine.ask<Frame>("frame", request_of(this.tables, lab, "frame", size));
       if (!draft) this.last_ms = ms;
       this.shown({ lab, frame: json, pictures, draft, ms: performance.now() - begun, engine_ms: ms });
+      return true;
     } catch (error) {
-      if (error instanceof Dropped && !error.cancelled) return;
+      if (error instanceof Dropped && !error.cancelled) return false;
       if (turn === this.last) this.failed((error as Error).message, error instanceof Dropped);
+      return false;
     }
   }
 }

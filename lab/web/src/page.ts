@@ -43,7 +43,8 @@ export class Page {
   private readonly redo = h("button", { type: "button", id: "redo", title: "Ctrl+Shift+Z", click: () => this.store.redo() }, "Redo");
   private readonly open: () => void;
   private at: { x: number; y: number } | null = null;
-  private view: string;
+  /** The viewer's link before there is a viewer. */
+  private readonly view: string;
   private shown: Shown | null = null;
   private timer = 0;
   private linking = 0;
@@ -66,8 +67,7 @@ export class Page {
     this.status = new Status([quick, slow], (engine) => engine.cancel());
     this.panes = new Panes({
       read: () => view_of_link(location.hash) || this.view,
-      write: (view, state) => {
-        this.view = view;
+      write: (_view, state) => {
         this.address();
         const moved = JSON.stringify(state.at) !== JSON.stringify(this.at);
         this.at = state.at;
@@ -140,6 +140,7 @@ export class Page {
     this.device.show(lab);
     this.history();
     clearTimeout(this.timer);
+    document.documentElement.dataset.settled = "false";
     this.drawer.draw(live);
     void this.load_base();
     clearTimeout(this.linking);
@@ -152,7 +153,7 @@ export class Page {
   }
 
   private address(): void {
-    history.replaceState(null, "", link_of(this.store.now, this.view));
+    history.replaceState(null, "", link_of(this.store.now, this.panes.link || this.view));
   }
 
   private async copy_link(): Promise<void> {
@@ -196,7 +197,7 @@ export class Page {
     this.command.textContent = shown_command(frame.command);
     this.blame.stale();
     const root = document.documentElement;
-    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
+    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
     clearTimeout(this.timer);
     if (draft) return;
     this.tried.add(shown);
@@ -334,6 +335,8 @@ export class Page {
     try {
       const { volumes, tf, config } = await taken(list);
       if (config !== null) await this.use_config(config);
+      // The engine keeps volumes by name, so another file of the same name gets another one.
+      if (volumes.length) while (this.files.has(volumes[0].name)) volumes[0].name = `again-${volumes[0].name}`;
       const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...(volumes.length ? { volume: `/files/${volumes[0].name}` } : {}) };
       if (scene_key(next) === scene_key(this.store.now) && volumes.length === 0) return;
       for (const { name, blob } of volumes) this.add_file(name, blob, true);

@@ -60,6 +60,11 @@ export class Panes {
 
   constructor(private readonly address: Address) {}
 
+  /** The viewer's link; "" before the first frame. */
+  get link(): string {
+    return this.viewer?.link ?? "";
+  }
+
   show(frame: Frame, pictures: Pictures): void {
     this.frame = frame;
     this.pictures = pictures;

@@ -23,7 +23,7 @@ function column<Row>(name: string, bits: Record<string, number>, of: (row: Row) 
 export class PixelStory {
   readonly root: HTMLDetailsElement;
   private readonly body = h("div", {}, h("p", { class: "note" }, "Click a pixel of a picture."));
-  private readonly splats = h("div");
+  private readonly splats = h("div", { class: "sheets" });
   private sheet: number | null = null;
 
   constructor(opened: () => void) {
@@ -70,7 +70,9 @@ export class PixelStory {
     this.body.append(h("h3", {}, "Sheet by sheet"), h("p", { class: "note" }, "Each cell: the device's word, its value, and the value in real arithmetic. Choose a sheet to see its splats."));
     const keys = [...new Set(story.sheets.flatMap((sheet) => Object.keys(sheet.together)))];
     if (!story.sheets.some((sheet) => sheet.sheet === this.sheet)) this.sheet = story.sheets[0]?.sheet ?? null;
-    const rows = table<Sheet>(this.body, {
+    const sheets = h("div", { class: "sheets" });
+    this.body.append(sheets);
+    const rows = table<Sheet>(sheets, {
       label: "Sheets of the pixel",
       rows: story.sheets,
       chosen: (row) => row.sheet === this.sheet,

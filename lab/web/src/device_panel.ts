@@ -43,7 +43,7 @@ export class DevicePanel {
     this.root = h(
       "section",
       { class: "box", id: "device", "aria-labelledby": "device-title" },
-      h("h2", { id: "device-title" }, "Device"),
+      h("h2", { id: "device-title", class: "off" }, "Device"),
       this.error,
       h("div", { class: "control" }, h("label", { for: "config" }, "Configuration"), h("div", { class: "entry" }, this.config, this.reset)),
       this.list,

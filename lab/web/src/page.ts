@@ -19,6 +19,7 @@ import { device_key, request_of, scene_key, shown_command, tf_file } from "./req
 import { ScenePanel } from "./scene_panel";
 import { Status } from "./status";
 import { TfEditor } from "./tf_editor";
+import { Tabs } from "./tabs";
 import { Tried } from "./tried";
 import { Turn } from "./turn";
 
@@ -38,6 +39,7 @@ export class Page {
   private readonly tf: TfEditor;
   private readonly scene: ScenePanel;
   private readonly device: DevicePanel;
+  private readonly tabs: Tabs;
   private readonly command = h("pre", { id: "command", tabindex: 0 });
   private readonly undo = h("button", { type: "button", id: "undo", title: "Ctrl+Z", click: () => this.store.undo() }, "Undo");
   private readonly redo = h("button", { type: "button", id: "redo", title: "Ctrl+Shift+Z", click: () => this.store.redo() }, "Redo");
@@ -84,6 +86,10 @@ export class Page {
     );
     this.scene = new ScenePanel(tables, this.store, () => this.edit_tf(), this.open);
     this.device = new DevicePanel(tables, this.store, { save: () => void this.save_config(), paste: (text) => void this.use_config(text) });
+    this.tabs = new Tabs([
+      { id: "scene", title: "Scene", panel: this.scene.root },
+      { id: "device", title: "Device", panel: this.device.root },
+    ]);
     this.drawer = new Drawer(quick, tables, this.store, (lab) => this.prepare(lab), (shown) => this.show(shown), (message, cancelled) => this.fail(message, cancelled));
     this.lay_out();
     this.store.on((_lab, { live }) => this.changed(live));
@@ -102,12 +108,12 @@ export class Page {
         "div",
         { class: "line" },
         h("h1", {}, "FastSplat lab"),
-        h("span", { class: "buttons" }, this.undo, this.redo, h("button", { type: "button", id: "copy-link", click: () => void this.copy_link() }, "Copy link"), theme_button()),
+        h("span", { class: "buttons" }, turn.button, this.undo, this.redo, h("button", { type: "button", id: "copy-link", click: () => void this.copy_link() }, "Copy link"), theme_button()),
       ),
     );
     document.getElementById("lab")?.replaceChildren(
-      h("section", { class: "pictures", id: "pictures", tabindex: -1, "aria-label": "Pictures" }, this.status.root, h("div", { class: "controls camera" }, turn.button, h("span", { class: "note" }, "Click a pixel to read it. Shift + wheel zooms the camera.")), this.panes.root),
-      h("div", { class: "side" }, this.scene.root, this.device.root),
+      h("section", { class: "pictures", id: "pictures", tabindex: -1, "aria-label": "Pictures" }, this.status.root, this.panes.root, h("p", { class: "note keys" }, "Click a pixel to read it. Drag to turn the camera, Shift + wheel to zoom it. Keys on a picture: arrows and + \u2212 do the same; t: they move the pixel and the view instead; w worst pixel, m how pictures are shown.")),
+      h("div", { class: "side" }, this.tabs.root),
       h(
         "div",
         { class: "rest" },
@@ -148,6 +154,9 @@ export class Page {
   }
 
   private history(): void {
+    const { settings, changes } = this.store.now;
+    this.tabs.count("scene", Object.keys(settings).length);
+    this.tabs.count("device", Object.keys(changes).length);
     this.undo.disabled = !this.store.can_undo;
     this.redo.disabled = !this.store.can_redo;
   }
@@ -188,7 +197,7 @@ export class Page {
   private show(shown: Shown): void {
     const { frame, pictures, draft } = shown;
     this.shown = shown;
-    this.status.show_error("");
+    this.status.show_error(frame.device_error ?? "");
     this.scene.show_error("");
     this.scene.show_idle(frame.idle);
     this.device.show_error(frame.device_error ?? "", true);
@@ -208,8 +217,8 @@ export class Page {
   private fail(message: string, cancelled: boolean): void {
     document.documentElement.dataset.ready ??= "1";
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
-    if (this.device.show_error(message)) return;
-    if (this.scene.show_error(message)) return this.status.show_error(message);
+    if (!this.device.show_error(message)) this.device.show_error("");
+    this.scene.show_error(message);
     this.status.show_error(message);
   }
 

@@ -41,7 +41,6 @@ export class ScenePanel {
   private readonly kernel = h("select", { id: "kernel", change: () => this.store.set({ kernel: this.kernel.value }) });
   private readonly width = h("input", { type: "number", id: "width", min: 16, max: most_side, step: 1, "aria-label": "Width in pixels", change: () => this.resize() });
   private readonly height = h("input", { type: "number", id: "height", min: 16, max: most_side, step: 1, "aria-label": "Height in pixels", change: () => this.resize() });
-  private readonly error = h("p", { class: "wrong-line", role: "alert", hidden: true });
   private readonly files: string[] = [];
   private last_tf_toml = "";
 
@@ -65,8 +64,7 @@ export class ScenePanel {
     this.root = h(
       "section",
       { class: "box", id: "scene", "aria-labelledby": "scene-title" },
-      h("h2", { id: "scene-title" }, "Scene"),
-      this.error,
+      h("h2", { id: "scene-title", class: "off" }, "Scene"),
       row("Volume", "volume", this.volume, h("button", { type: "button", title: "NIfTI, NRRD or MetaImage; or drop a file on the page", click: open_file }, "Open\u2026")),
       row("Transfer function", "tf", this.tf, h("button", { type: "button", id: "edit-tf", click: edit_tf }, "Edit\u2026")),
       ...named("method"),
@@ -129,7 +127,7 @@ export class ScenePanel {
     for (const [name, one] of this.controls) one.disable(idle[name] ?? "");
   }
 
-  /** Shows an error at the setting that it names, else above all. Returns false if the scene has no part in it. */
+  /** Shows an error at the setting that it names. Returns false if it names none. */
   show_error(message: string): boolean {
     let placed = false;
     for (const [name, one] of this.controls) {
@@ -138,9 +136,6 @@ export class ScenePanel {
       placed ||= mine;
       one.complain(mine ? message : "");
     }
-    const here = message !== "" && !placed;
-    this.error.hidden = !here;
-    this.error.textContent = here ? message : "";
     return placed;
   }
 }

@@ -80,7 +80,9 @@ export async function type(page, name, value) {
 }
 /** Opens the group of a control. */
 export const reveal = (page, name) => page.evaluate((n) => {
-  const details = document.querySelector(`.control[data-name="${n}"]`).closest("details");
+  const control = document.querySelector(`.control[data-name="${n}"]`);
+  document.getElementById(control.closest("[role=tabpanel]").getAttribute("aria-labelledby")).click();
+  const details = control.closest("details");
   if (details) details.open = true;
 }, name);
 

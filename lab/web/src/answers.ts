@@ -30,6 +30,7 @@ export interface Tables {
   settings: Setting[];
   keys: Key[];
   configs: string[];
+  config_about?: { name: string; description: string; verified?: string }[];
   volumes: { name: string; size: number }[];
   presets: string[];
   kernels: string[];

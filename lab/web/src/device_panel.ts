@@ -86,8 +86,10 @@ export class DevicePanel {
     for (const [name, one] of this.controls) one.show(lab.changes[name] ?? null);
     const names = Object.keys(lab.changes);
     this.reset.hidden = names.length === 0;
+    const about = lab.toml ? undefined : this.tables.config_about?.find((each) => each.name === lab.config)?.description;
     const from = lab.toml ? "the file" : lab.config;
     this.list.replaceChildren(
+      ...(about ? [h("li", {}, about)] : []),
       h("li", { class: "note" }, names.length === 0 ? `The same as ${from}.` : `${names.length === 1 ? "1 key differs" : `${names.length} keys differ`} from ${from}:`),
       ...names.map((name) => h("li", {}, h("code", {}, `${name}: ${this.base?.values[name] ?? "?"} \u2192 ${lab.changes[name]}`))),
     );

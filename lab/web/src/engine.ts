@@ -28,7 +28,8 @@ export interface Program {
 export type Files = Map<string, Blob>;
 
 export class Engine {
-  private worker: Worker;
+  /** Null until something is asked. */
+  private worker: Worker | null = null;
   private waiting: Job[] = [];
   private running: Job | null = null;
   private next = 1;
@@ -42,9 +43,7 @@ export class Engine {
     private readonly files: Files,
     /** Called with one sentence when the worker died and was started again. */
     private readonly died: (message: string) => void,
-  ) {
-    this.worker = this.start();
-  }
+  ) {}
 
   private start(): Worker {
     const worker = new Worker(this.program.script);
@@ -60,7 +59,7 @@ export class Engine {
   }
 
   private send(message: ToWorker, worker = this.worker): void {
-    worker.postMessage(message);
+    worker?.postMessage(message);
   }
 
   /** Gives a file to the worker; later workers get it too. */
@@ -79,6 +78,7 @@ export class Engine {
 
   /** Asks; a waiting request of the same channel is dropped. */
   ask<T>(channel: string, request: Request): Promise<Answer<T>> {
+    this.worker ??= this.start();
     this.waiting = this.waiting.filter((job) => {
       if (job.channel === channel) job.fail(new Dropped(false));
       return job.channel !== channel;
@@ -119,7 +119,7 @@ export class Engine {
   }
 
   private dead(message: string): void {
-    this.worker.terminate();
+    this.worker?.terminate();
     const job = this.running;
     this.running = null;
     if (!this.ready && ++this.failed_starts >= 3) {
@@ -136,7 +136,7 @@ export class Engine {
   /** Stops what runs and what waits; the worker starts anew. */
   cancel(): void {
     const jobs = [this.running, ...this.waiting];
-    this.worker.terminate();
+    this.worker?.terminate();
     this.running = null;
     this.waiting = [];
     this.worker = this.start();

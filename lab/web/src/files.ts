@@ -56,7 +56,7 @@ export function save(name: string, text: string): void {
 /** Takes files dropped anywhere on the page. Returns a function that lets the user choose files. */
 export function listen_for_files(take: (files: File[]) => void): () => void {
   const input = h("input", { type: "file", multiple: true, id: "file", class: "off", tabindex: -1, "aria-label": "Files", change: () => (take([...(input.files ?? [])]), (input.value = "")) });
-  document.body.append(input);
+  document.getElementById("foot")?.append(input);
   const files = (event: DragEvent): boolean => [...(event.dataTransfer?.types ?? [])].includes("Files");
   addEventListener("dragover", (event) => {
     if (!files(event)) return;

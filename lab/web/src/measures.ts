@@ -17,7 +17,7 @@ function error_tiles(compare: Result): HTMLElement {
     ["RMSE", show(["rmse_lsb"]), h("small", {}, " LSB")],
     ["Bias", show(["bias_lsb"], { sign: true }), h("small", {}, " LSB")],
     ["SSIM", show(["ssim"], { digits: 6 })],
-    typeof compare.floor?.psnr_db === "number" && [`Floor: rounding once to ${compare.lsb_bits} bits`, show(["floor", "psnr_db"], { digits: 2, unit: "dB" })],
+    typeof compare.floor?.psnr_db === "number" && ["Floor", show(["floor", "psnr_db"], { digits: 2, unit: "dB" }), h("small", {}, ` rounded once to ${compare.lsb_bits} bits`)],
   );
 }
 

@@ -15,13 +15,21 @@ import { from_link, link_of, view_of_link } from "./link";
 import { Measures } from "./measures";
 import { Panes } from "./panes";
 import { PixelStory } from "./pixel_story";
-import { device_key, request_of, scene_key, shown_command, tf_file } from "./requests";
+import { device_key, request_of, scene_key, shown_command, tf_file, tf_key } from "./requests";
 import { ScenePanel } from "./scene_panel";
 import { Status } from "./status";
 import { TfEditor } from "./tf_editor";
 import { Tabs } from "./tabs";
 import { Tried } from "./tried";
 import { Turn } from "./turn";
+
+const keys = [
+  "Click a picture: its pixel is read. w: the worst pixel, c: the next cluster, Esc: none.",
+  "Drag a picture, or arrow keys: the camera turns. Shift + wheel, or + and \u2212: it zooms.",
+  "t: dragging and keys move the view of the picture instead. Wheel: zooms it. 0: the whole picture.",
+  "m: side by side, slider or flicker. [ and ]: the slider. Space: the other picture.",
+  "Ctrl + Z and Ctrl + Shift + Z: undo and redo.",
+];
 
 /** Time at rest before the cycles are asked for. */
 const cycles_ms = 400;
@@ -51,9 +59,8 @@ export class Page {
   private timer = 0;
   private linking = 0;
   private base_of = "";
-  /** What the editor itself set, so that its points are not read back. */
-  private own_tf = "";
-  private histogram_of = "";
+  /** Volume and function that the editor shows. */
+  private edited = "";
   private frames = 0;
 
   constructor(
@@ -79,7 +86,7 @@ export class Page {
     this.tf = new TfEditor(
       () => this.ask_histogram(),
       (toml, live) => {
-        this.own_tf = toml;
+        this.edited = tf_key({ ...this.store.now, tf_toml: toml });
         this.store.set({ tf_toml: toml }, "tf", live);
       },
       (toml) => save("tf.toml", toml),
@@ -112,7 +119,7 @@ export class Page {
       ),
     );
     document.getElementById("lab")?.replaceChildren(
-      h("section", { class: "pictures", id: "pictures", tabindex: -1, "aria-label": "Pictures" }, this.status.root, this.panes.root, h("p", { class: "note keys" }, "Click a pixel to read it. Drag to turn the camera, Shift + wheel to zoom it. Keys on a picture: arrows and + \u2212 do the same; t: they move the pixel and the view instead; w worst pixel, m how pictures are shown.")),
+      h("section", { class: "pictures", id: "pictures", tabindex: -1, "aria-label": "Pictures" }, this.status.root, this.panes.root, h("details", { class: "keys" }, h("summary", {}, "Mouse and keys"), h("ul", {}, keys.map((line) => h("li", {}, line))))),
       h("div", { class: "side" }, this.tabs.root),
       h(
         "div",
@@ -217,6 +224,8 @@ export class Page {
   private fail(message: string, cancelled: boolean): void {
     document.documentElement.dataset.ready ??= "1";
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
+    const file = this.store.now.volume.startsWith("/files/") ? this.store.now.volume.slice("/files/".length) : "";
+    if (file && !this.files.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
     if (!this.device.show_error(message)) this.device.show_error("");
     this.scene.show_error(message);
     this.status.show_error(message);
@@ -290,13 +299,12 @@ export class Page {
 
   private async ask_histogram(): Promise<void> {
     const lab = this.store.now;
-    const of = JSON.stringify([lab.volume, lab.tf, lab.tf_toml]);
-    if (!this.tf.open || of === this.histogram_of) return;
-    if (lab.tf_toml !== "" && lab.tf_toml === this.own_tf && this.histogram_of.startsWith(`[${JSON.stringify(lab.volume)}`)) return;
+    const of = tf_key(lab);
+    if (!this.tf.open || of === this.edited) return;
     try {
       const answer = await this.slowly<Histogram>("histogram", lab);
-      if (!answer) return;
-      this.histogram_of = of;
+      if (!answer || of !== tf_key(this.store.now)) return;
+      this.edited = of;
       this.tf.show({ ...answer.json, toml: answer.json.toml ?? (lab.tf_toml || undefined) });
     } catch (error) {
       this.tf.fail((error as Error).message);

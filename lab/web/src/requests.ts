@@ -45,6 +45,11 @@ export function scene_key(lab: Lab): string {
   return JSON.stringify(scene);
 }
 
+/** Equal for states with the same volume and transfer function. */
+export function tf_key(lab: Lab): string {
+  return JSON.stringify([lab.volume, lab.tf, lab.tf_toml]);
+}
+
 export function device_key(lab: Lab): string {
   return JSON.stringify([lab.toml || lab.config, Object.entries(lab.changes).sort()]);
 }

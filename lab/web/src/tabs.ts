@@ -48,6 +48,7 @@ export class Tabs {
   count(id: string, changes: number): void {
     const i = this.tabs.findIndex((tab) => tab.id === id);
     const { title } = this.tabs[i];
-    this.buttons[i].textContent = changes ? `${title}, ${changes} changed` : title;
+    this.buttons[i].textContent = changes ? `${title} (${changes})` : title;
+    this.buttons[i].title = changes ? `${changes} changed` : "";
   }
 }

@@ -66,7 +66,7 @@ export class TfEditor {
     this.points = points_of(histogram);
     this.rest = rest_of(histogram.toml);
     this.chosen = Math.min(this.chosen, this.points.length - 1);
-    this.message.textContent = `${histogram.dims.join(" \u00d7 ")} voxels, values ${number_text(histogram.min)} to ${number_text(histogram.max)}; counts on a logarithmic scale. Function: ${histogram.tf}.`;
+    this.message.textContent = `${histogram.dims.join(" \u00d7 ")} voxels, values ${number_text(histogram.min)} to ${number_text(histogram.max)}; counts on a logarithmic scale. Function: ${histogram.tf}.${histogram.toml === undefined ? " An edited preset loses its shading." : ""}`;
     this.draw();
   }
 
@@ -74,7 +74,7 @@ export class TfEditor {
     const point = this.points[this.chosen];
     if (!point || !this.histogram) return;
     const [before, after] = [this.points[this.chosen - 1], this.points[this.chosen + 1]];
-    const { min, max } = this.histogram;
+    const { min, max } = this.span;
     const next = { ...point, ...part };
     next.at = Math.min(after?.at ?? max, Math.max(before?.at ?? min, Number.isFinite(next.at) ? next.at : point.at));
     next.opacity = Math.min(1, Math.max(0, Number.isFinite(next.opacity) ? next.opacity : point.opacity));
@@ -87,7 +87,7 @@ export class TfEditor {
     if (!this.histogram) return;
     const after = this.points[this.chosen + 1];
     const here = this.points[this.chosen];
-    const place = at ?? (after ? (here.at + after.at) / 2 : (here.at + this.histogram.max) / 2);
+    const place = at ?? (after ? (here.at + after.at) / 2 : (here.at + this.span.max) / 2);
     const point = at_value(this.points, place);
     this.points = [...this.points, { ...point, opacity: opacity ?? point.opacity }].sort((a, b) => a.at - b.at);
     this.chosen = this.points.findIndex((each) => each.at === place);
@@ -132,8 +132,15 @@ export class TfEditor {
 
   // --- drawing -----------------------------------------------------------------------------------------------------
 
-  private x(at: number): number {
+  /** The values from left to right: the volume's, and the points'. */
+  private get span(): { min: number; max: number } {
     const { min, max } = this.histogram as Histogram;
+    const values = this.points.map((point) => point.at);
+    return { min: Math.min(min, ...values), max: Math.max(max, ...values) };
+  }
+
+  private x(at: number): number {
+    const { min, max } = this.span;
     return edge + ((at - min) / (max - min || 1)) * (this.width - 2 * edge);
   }
 
@@ -142,7 +149,7 @@ export class TfEditor {
   }
 
   private from_event(event: MouseEvent): { at: number; opacity: number } {
-    const { min, max } = this.histogram as Histogram;
+    const { min, max } = this.span;
     const box = (this.place.firstElementChild as Element).getBoundingClientRect();
     return { at: min + ((event.clientX - box.left - edge) / (this.width - 2 * edge)) * (max - min), opacity: 1 - (event.clientY - box.top - edge) / (tall - 2 * edge) };
   }
@@ -157,18 +164,19 @@ export class TfEditor {
       this.svg.addEventListener("keydown", (event) => this.key(event));
       this.svg.addEventListener("dblclick", (event) => {
         const { at, opacity } = this.from_event(event);
-        const { min, max } = this.histogram as Histogram;
+        const { min, max } = this.span;
         if (at >= min && at <= max) this.add(at, Math.min(1, Math.max(0, opacity)));
       });
       this.svg.addEventListener("pointerdown", (event) => this.grasp(event));
       this.place.append(this.svg);
     }
-    const { bins, min, max } = this.histogram;
+    const { bins } = this.histogram;
+    const { min, max } = this.span;
     const most = Math.log1p(Math.max(...bins));
-    const wide = (this.width - 2 * edge) / bins.length;
+    const left = this.x(this.histogram.min), wide = (this.x(this.histogram.max) - left) / bins.length;
     const bars = bins.map((count, i) => {
       const high = (Math.log1p(count) / most) * (tall - 2 * edge);
-      return count ? `M${(edge + i * wide).toFixed(1)} ${tall - edge}v${(-high).toFixed(1)}h${wide.toFixed(2)}v${high.toFixed(1)}z` : "";
+      return count ? `M${(left + i * wide).toFixed(1)} ${tall - edge}v${(-high).toFixed(1)}h${wide.toFixed(2)}v${high.toFixed(1)}z` : "";
     });
     const stops = this.points.map((point) => s("stop", { offset: (point.at - min) / (max - min || 1), "stop-color": hex_of(point.colour) }));
     const curve = this.points.map((point) => `${this.x(point.at).toFixed(1)},${this.y(point.opacity).toFixed(1)}`);

@@ -304,15 +304,23 @@ test("the transfer function's editor", async () => {
   await page.mouse.down();
   await page.mouse.move(box.x + 8, box.y - 40, { steps: 3 });
   await rest(page, () => page.mouse.up());
+  const saved_hash = await shown_hash(page);
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#tf-save")]);
   await download.saveAs(place("saved.toml"));
   assert.match(readFileSync(place("saved.toml"), "utf8"), /domain = "value"/);
+  // Undone to the end, the editor shows the preset's points again.
+  const many = (await page.$$(".tf-point")).length;
+  while (!(await page.isDisabled("#undo"))) await rest(page, () => page.click("#undo"));
+  assert.equal(await shown_hash(page), hash);
+  await page.waitForFunction((n) => document.querySelectorAll(".tf-point").length === n, points);
+  while (!(await page.isDisabled("#redo"))) await rest(page, () => page.click("#redo"));
+  await page.waitForFunction((n) => document.querySelectorAll(".tf-point").length === n, many);
   // The link carries it.
-  const last = await shown_hash(page);
+  assert.equal(await shown_hash(page), saved_hash);
   await page.click("#copy-link");
   const link = await page.evaluate(() => window.copied.at(-1));
   const other = await open({ hash: link.slice(link.indexOf("#")) });
-  assert.equal(await shown_hash(other), last);
+  assert.equal(await shown_hash(other), saved_hash);
   await other.finish();
   await page.finish();
 });

@@ -29,7 +29,7 @@ function name_of(side: Result): string {
 }
 
 /** Explains the floor, and why a picture can be nearer to the reference than the floor. */
-function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
+export function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
   if (!result.floor || typeof result.floor.psnr_db !== "number") return [];
   const better = typeof result.psnr_db === "number" && result.psnr_db > result.floor.psnr_db;
   return [
@@ -88,7 +88,7 @@ function percentiles(root: HTMLElement, result: Result): void {
   root.append(legend([{ name: "measured", colour: "c0" }, { name: "floor: the first picture rounded once to this LSB", colour: "c1" }]));
 }
 
-function histogram(root: HTMLElement, result: Result): void {
+export function histogram(root: HTMLElement, result: Result): void {
   const bins: { from_lsb: number; to_lsb: number | null; count: number }[] = result.histogram ?? [];
   const total = bins.reduce((sum, bin) => sum + bin.count, 0);
   columns(

@@ -12,12 +12,22 @@ function encoded(linear: number): number {
   return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
 }
 
+/** 8-bit sRGB for the words up to 1.0, kept for each scale: pictures of a sequence share it. */
+const tables = new Map<string, Uint8Array>();
+
+function looks_of(scale: number, display: boolean): Uint8Array {
+  const steps = Math.min(scale, 65536);
+  const key = `${steps} ${display}`;
+  let looks = tables.get(key);
+  if (!looks) tables.set(key, (looks = Uint8Array.from({ length: steps + 1 }, (_, i) => (display ? Math.round((255 * i) / steps) : encoded(i / steps)))));
+  return looks;
+}
+
 export class Plane {
   readonly x0: number;
   readonly y0: number;
   readonly full_width: number;
   readonly full_height: number;
-  /** 8-bit sRGB for the words up to 1.0. */
   private readonly looks: Uint8Array;
 
   constructor(
@@ -29,8 +39,7 @@ export class Plane {
     this.y0 = crop?.y ?? 0;
     this.full_width = crop?.full_width ?? width;
     this.full_height = crop?.full_height ?? height;
-    const steps = Math.min(scale, 65536);
-    this.looks = Uint8Array.from({ length: steps + 1 }, (_, i) => (display ? Math.round((255 * i) / steps) : encoded(i / steps)));
+    this.looks = looks_of(scale, display === true);
   }
 
   /** Whether the picture contains this pixel of the whole frame. */

@@ -42,6 +42,18 @@ function pair(text: string | null): { x: number; y: number } | null {
   return numbers.length === 2 && numbers.every(Number.isFinite) ? { x: numbers[0], y: numbers[1] } : null;
 }
 
+/** Where links are kept. */
+export interface Address {
+  read(): string;
+  write(link: string, state: State): void;
+}
+
+/** The page's own address. */
+export const page_address: Address = {
+  read: () => location.hash,
+  write: (link) => history.replaceState(null, "", link),
+};
+
 /** `state` with the link's values; missing or invalid ones keep their value. */
 export function from_link(hash: string, state: State): State | null {
   if (!hash.startsWith(prefix)) return null;

@@ -5,7 +5,7 @@ import { colour, on_theme } from "../theme";
 import type { Channel } from "./plane";
 import { error_colour, round_range } from "./derived";
 import { readout } from "./readout";
-import { from_link, link_of, type Mode, type State } from "./state";
+import { from_link, link_of, page_address, type Address, type Mode, type State } from "./state";
 import { begin, camera, draw, mark } from "./surface";
 import type { Scene, View } from "./views";
 
@@ -44,16 +44,22 @@ export class Viewer {
   private cluster = -1;
   private waiting = false;
   private linking = 0;
+  /** The chosen pixel's place, 0..1 of the frame: kept while pictures of other sizes come and go. */
+  private chosen: Point | null = null;
+  /** The views that a reader or a link chose: kept while a picture is missing. Null: none chosen. */
+  private wished: Pick<State, "a" | "b" | "show"> | null = null;
   private state: State;
 
   constructor(
     root: HTMLElement,
-    private readonly scenes: { name: string; scene: Scene }[],
+    private scenes: { name: string; scene: Scene }[],
     private readonly tour: (scene: Scene, a: string, b: string) => Tour,
+    private readonly address: Address = page_address,
   ) {
     this.state = this.fresh(0);
-    const linked = from_link(location.hash, this.state);
-    if (linked) this.state = this.legal(linked);
+    const linked = from_link(address.read(), this.state);
+    if (linked) this.follow(linked);
+    this.choose();
     root.classList.add("viewer");
     root.append(this.controls, h("div", {}, this.panes, this.dock));
     root.addEventListener("keydown", (event) => this.key(event));
@@ -62,15 +68,55 @@ export class Viewer {
     // Panes fill the height that the dock leaves.
     new ResizeObserver(() => root.style.setProperty("--dock", `${this.dock.offsetHeight}px`)).observe(this.dock);
     addEventListener("hashchange", () => {
-      const next = from_link(location.hash, this.state);
+      const next = from_link(this.address.read(), this.state);
       if (!next) return;
-      this.state = this.legal(next);
+      this.follow(next);
+      this.choose();
       this.build();
       this.reveal();
     });
     setInterval(() => this.turn(), 600);
     this.build();
     if (linked) requestAnimationFrame(() => requestAnimationFrame(() => this.reveal()));
+  }
+
+  /** Shows other pictures. State stays: the same part of the frame and the same pixel, also in another size. */
+  replace(scenes: { name: string; scene: Scene }[]): void {
+    const { scene: before } = this;
+    const shape = (of: Scene): string => [of.width / of.height, ...of.planes.map((plane) => `${plane.picture.id} ${plane.picture.title} ${plane.top_word}`)].join();
+    const first = scenes[Math.min(this.state.group, scenes.length - 1)].scene;
+    const grown = first.width / before.width;
+    const same = scenes.length === this.scenes.length && shape(first) === shape(before);
+    const at = this.chosen && { x: Math.floor(this.chosen.x * first.width), y: Math.floor(this.chosen.y * first.height) };
+    this.scenes = scenes;
+    this.hover = null;
+    this.state = this.legal({ ...this.state, ...(this.wished ?? this.first_views(this.scene)), at, zoom: this.state.zoom / grown, x: this.state.x * grown, y: this.state.y * grown });
+    if (!same) return this.build();
+    this.refresh_notes();
+    this.build_legend();
+    this.build_jumps();
+    this.redraw();
+  }
+
+  get link(): string {
+    return link_of(this.state);
+  }
+
+  /** Adds a view to those side by side. */
+  present(key: string): void {
+    const show = this.state.show.includes(key) ? this.state.show : [...this.state.show, key];
+    this.change({ mode: "side", show });
+  }
+
+  private follow(linked: State): void {
+    const { a, b, show } = linked;
+    this.wished = { a, b, show };
+    this.state = this.legal(linked);
+  }
+
+  private choose(): void {
+    const { at } = this.state;
+    this.chosen = at && { x: (at.x + 0.5) / this.scene.width, y: (at.y + 0.5) / this.scene.height };
   }
 
   private get scene(): Scene {
@@ -82,13 +128,16 @@ export class Viewer {
   }
 
   private fresh(group: number): State {
-    const { scene } = this.scenes[group];
+    return { mode: "side", group, ...this.first_views(this.scenes[group].scene), channel: "colour", zoom: 0, x: 0, y: 0, at: null, split: 0.5 };
+  }
+
+  private first_views(scene: Scene): Pick<State, "a" | "b" | "show"> {
     const measured = scene.measured.length > 0 ? scene.measured : scene.planes;
     const first = measured[0].picture.id;
     const [a, b] = scene.compared ?? [first, (measured.find((plane) => scene.pair(first, plane.picture.id)) ?? measured[measured.length - 1]).picture.id];
     const maps = scene.planes.filter((plane) => plane.picture.display).map((plane) => plane.picture.id);
     const show = [...new Set([a, b, ...(scene.pair(a, b) ? ["error"] : []), ...maps])].slice(0, 4);
-    return { mode: "side", group, show, a, b, channel: "colour", zoom: 0, x: 0, y: 0, at: null, split: 0.5 };
+    return { a, b, show };
   }
 
   /** Corrects a state, which may come from a link to another report: replaces what does not exist here. */
@@ -108,10 +157,12 @@ export class Viewer {
 
   private change(part: Partial<State>, rebuild = true): void {
     this.state = this.legal({ ...this.state, ...part });
+    if ("at" in part) this.choose();
+    if (part.a || part.b || part.show) this.wished = { a: this.state.a, b: this.state.b, show: this.state.show };
     if (rebuild) this.build();
     else this.redraw();
     clearTimeout(this.linking);
-    this.linking = window.setTimeout(() => history.replaceState(null, "", link_of(this.state)), 200);
+    this.linking = window.setTimeout(() => this.address.write(link_of(this.state), this.state), 200);
   }
 
   // --- elements --------------------------------------------------------------------------------------------------
@@ -148,6 +199,7 @@ export class Viewer {
         { class: "controls" },
         this.scenes.length > 1 && this.choice("Scene", this.scenes.map(({ name }, i) => [String(i), name]), String(state.group), (value) => {
           this.state = this.fresh(Number(value));
+          this.wished = null;
           this.change({});
         }),
         h("span", { class: "group", role: "group", "aria-label": "How pictures are shown" }, modes.map(([mode, text]) => button(`mode-${mode}`, text, "Key m", () => this.change({ mode }), mode === state.mode))),
@@ -192,7 +244,7 @@ export class Viewer {
       this.panes.replaceChildren(
         ...state.show.map((key) => {
           const view = this.view(key);
-          return pane(key, view?.title ?? key, () => one(key), [key === "error" && this.legend, view && this.strip(view), view?.note ? h("p", { class: "note" }, view.note) : null]);
+          return pane(key, view?.title ?? key, () => one(key), [key === "error" && this.legend, view && this.strip(view), view?.note ? h("p", { class: "note", "data-note": key }, view.note) : null]);
         }),
       );
     } else {
@@ -202,6 +254,10 @@ export class Viewer {
     }
     this.panes.dataset.mode = state.mode;
     this.panes.dataset.count = String(this.surfaces.length);
+  }
+
+  private refresh_notes(): void {
+    for (const note of this.panes.querySelectorAll<HTMLElement>("[data-note]")) note.textContent = this.view(note.dataset.note ?? "")?.note ?? "";
   }
 
   /** A map's own legend, from below its picture. */
@@ -246,7 +302,7 @@ export class Viewer {
       ...tour.clusters.map((place, i) => jump(place, { title: "Key c: the next one", "data-jump": `cluster-${i}` })),
       ...(tour.clusters.length === 0 ? [h("span", { class: "note" }, tour.none)] : []),
       h("button", { type: "button", class: "copy", click: async () => {
-        history.replaceState(null, "", link_of(this.state));
+        this.address.write(link_of(this.state), this.state);
         say((await copy(location.href)) ? "Link copied" : "The link is in the address bar");
       } }, "Copy link"),
     );

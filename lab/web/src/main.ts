@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Starts the lab: loads the engine, builds the page, and hides nothing if that fails. html[data-ready] becomes "1" with
+// the first picture, and "error" if there will be none.
+import { h } from "../../../report/web/src/dom";
+import { start_theme } from "../../../report/web/src/theme";
+import type { Tables } from "./answers";
+import { Engine, type Files } from "./engine";
+import { Page } from "./page";
+import { load_program } from "./program";
+import "uplot/dist/uPlot.min.css";
+import "../../../report/web/src/report.css";
+import "../../../report/web/src/viewer/viewer.css";
+import "../lab.css";
+
+async function start(): Promise<void> {
+  start_theme();
+  const main = document.getElementById("lab") as HTMLElement;
+  main.replaceChildren(h("p", { class: "note" }, "Starting the engine\u2026"));
+  try {
+    const program = await load_program();
+    const files: Files = new Map();
+    let notice = (_message: string): void => undefined;
+    const quick = new Engine(program, files, (message) => notice(message));
+    const tables = await quick.ask<Tables>("tables", { ask: "tables" });
+    const slow = new Engine(program, files, (message) => notice(message));
+    const page = new Page(tables.json, quick, slow, files);
+    notice = (message) => page.notice(message);
+    page.begin();
+  } catch (error) {
+    main.replaceChildren(h("p", { class: "broken", role: "alert" }, `The lab cannot start: ${(error as Error).message}`));
+    document.documentElement.dataset.ready = "error";
+  }
+}
+
+void start();

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page: puts its parts together and leads changes from one to the other.
+import { copy, h, say } from "../../../report/web/src/dom";
+import type { Result } from "../../../report/web/src/page";
+import { theme_button } from "../../../report/web/src/theme";
+import type { Config, Histogram, Request, Story, Tables } from "./answers";
+import { BlamePart } from "./blame";
+import { CyclesPart, type Cycles } from "./cycles";
+import { DevicePanel } from "./device_panel";
+import { Drawer, type Shown } from "./drawer";
+import { Dropped, type Engine, type Files } from "./engine";
+import { listen_for_files, save, taken } from "./files";
+import { first_lab, Store, type Lab } from "./lab_state";
+import { from_link, link_of, view_of_link } from "./link";
+import { Measures } from "./measures";
+import { Panes } from "./panes";
+import { PixelStory } from "./pixel_story";
+import { device_key, request_of, scene_key, shown_command, tf_file, tf_key } from "./requests";
+import { ScenePanel } from "./scene_panel";
+import { Status } from "./status";
+import { TfEditor } from "./tf_editor";
+import { Tabs } from "./tabs";
+import { Tried } from "./tried";
+import { Turn } from "./turn";
+
+const keys = [
+  "Click a picture: its pixel is read. w: the worst pixel, c: the next cluster, Esc: none.",
+  "Drag a picture, or arrow keys: the camera turns. Shift + wheel, or + and \u2212: it zooms.",
+  "t: dragging and keys move the view of the picture instead. Wheel: zooms it. 0: the whole picture.",
+  "m: side by side, slider or flicker. [ and ]: the slider. Space: the other picture.",
+  "Ctrl + Z and Ctrl + Shift + Z: undo and redo.",
+];
+
+/** Time at rest before the cycles are asked for. */
+const cycles_ms = 400;
+
+export class Page {
+  private readonly store: Store;
+  private readonly drawer: Drawer;
+  private readonly status: Status;
+  private readonly panes: Panes;
+  private readonly measures = new Measures();
+  private readonly cycles = new CyclesPart();
+  private readonly blame = new BlamePart(() => this.ask_errors());
+  private readonly story = new PixelStory(() => this.ask_pixel());
+  private readonly tried = new Tried((lab) => this.store.set({ config: lab.config, toml: lab.toml, changes: lab.changes }));
+  private readonly tf: TfEditor;
+  private readonly scene: ScenePanel;
+  private readonly device: DevicePanel;
+  private readonly tabs: Tabs;
+  private readonly command = h("pre", { id: "command", tabindex: 0 });
+  private readonly undo = h("button", { type: "button", id: "undo", title: "Ctrl+Z", click: () => this.store.undo() }, "Undo");
+  private readonly redo = h("button", { type: "button", id: "redo", title: "Ctrl+Shift+Z", click: () => this.store.redo() }, "Redo");
+  private readonly open: () => void;
+  private at: { x: number; y: number } | null = null;
+  /** The viewer's link before there is a viewer. */
+  private readonly view: string;
+  private shown: Shown | null = null;
+  private timer = 0;
+  private linking = 0;
+  private base_of = "";
+  /** Volume and function that the editor shows. */
+  private edited = "";
+  private frames = 0;
+
+  constructor(
+    private readonly tables: Tables,
+    private readonly quick: Engine,
+    private readonly slow: Engine,
+    private readonly files: Files,
+  ) {
+    const linked = from_link(location.hash, tables);
+    this.store = new Store(linked ?? first_lab);
+    this.view = view_of_link(location.hash);
+    this.open = listen_for_files((list) => void this.take(list));
+    this.status = new Status([quick, slow], (engine) => engine.cancel());
+    this.panes = new Panes({
+      read: () => view_of_link(location.hash) || this.view,
+      write: (_view, state) => {
+        this.address();
+        const moved = JSON.stringify(state.at) !== JSON.stringify(this.at);
+        this.at = state.at;
+        if (moved) this.ask_pixel();
+      },
+    });
+    this.tf = new TfEditor(
+      () => this.ask_histogram(),
+      (toml, live) => {
+        this.edited = tf_key({ ...this.store.now, tf_toml: toml });
+        this.store.set({ tf_toml: toml }, "tf", live);
+      },
+      (toml) => save("tf.toml", toml),
+    );
+    this.scene = new ScenePanel(tables, this.store, () => this.edit_tf(), this.open);
+    this.device = new DevicePanel(tables, this.store, { save: () => void this.save_config(), paste: (text) => void this.use_config(text) });
+    this.tabs = new Tabs([
+      { id: "scene", title: "Scene", panel: this.scene.root },
+      { id: "device", title: "Device", panel: this.device.root },
+    ]);
+    this.drawer = new Drawer(quick, tables, this.store, (lab) => this.prepare(lab), (shown) => this.show(shown), (message, cancelled) => this.fail(message, cancelled));
+    this.lay_out();
+    this.store.on((_lab, { live }) => this.changed(live));
+    addEventListener("hashchange", () => {
+      const next = from_link(location.hash, tables);
+      if (next) this.store.set(next);
+    });
+    addEventListener("keydown", (event) => this.key(event));
+  }
+
+  private lay_out(): void {
+    const defaults = Object.fromEntries(this.tables.settings.map((setting) => [setting.name, setting.default]));
+    const turn = new Turn(this.panes.root, this.store, defaults);
+    document.getElementById("top")?.append(
+      h(
+        "div",
+        { class: "line" },
+        h("h1", {}, "FastSplat lab"),
+        h("span", { class: "buttons" }, turn.button, this.undo, this.redo, h("button", { type: "button", id: "copy-link", click: () => void this.copy_link() }, "Copy link"), theme_button()),
+      ),
+    );
+    document.getElementById("lab")?.replaceChildren(
+      h("section", { class: "pictures", id: "pictures", tabindex: -1, "aria-label": "Pictures" }, this.status.root, this.panes.root, h("details", { class: "keys" }, h("summary", {}, "Mouse and keys"), h("ul", {}, keys.map((line) => h("li", {}, line))))),
+      h("div", { class: "side" }, this.tabs.root),
+      h(
+        "div",
+        { class: "rest" },
+        this.measures.root,
+        h("div", { class: "pair" }, this.cycles.root, this.tried.root),
+        this.story.root,
+        this.tf.root,
+        this.blame.root,
+        h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
+      ),
+    );
+    document.getElementById("foot")?.append(h("p", {}, `fastsplat ${this.tables.version}. The device runs in this page, bit for bit; nothing leaves it. Drop a volume (NIfTI, NRRD, MetaImage), a transfer function or a configuration (TOML) anywhere.`));
+  }
+
+  begin(): void {
+    this.history();
+    this.drawer.draw(false);
+    void this.load_base();
+  }
+
+  notice(message: string): void {
+    this.status.show_notice(message);
+  }
+
+  // --- changes -------------------------------------------------------------------------------------------------------
+
+  private changed(live: boolean): void {
+    const lab = this.store.now;
+    this.scene.show(lab);
+    this.device.show(lab);
+    this.history();
+    clearTimeout(this.timer);
+    document.documentElement.dataset.settled = "false";
+    this.drawer.draw(live);
+    void this.load_base();
+    clearTimeout(this.linking);
+    this.linking = window.setTimeout(() => this.address(), 200);
+  }
+
+  private history(): void {
+    const { settings, changes } = this.store.now;
+    this.tabs.count("scene", Object.keys(settings).length);
+    this.tabs.count("device", Object.keys(changes).length);
+    this.undo.disabled = !this.store.can_undo;
+    this.redo.disabled = !this.store.can_redo;
+  }
+
+  private address(): void {
+    history.replaceState(null, "", link_of(this.store.now, this.panes.link || this.view));
+  }
+
+  private async copy_link(): Promise<void> {
+    this.address();
+    say((await copy(location.href)) ? "Link copied" : "The link is in the address bar");
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z") return;
+    const { target } = event;
+    if (target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target.type === "text")) return;
+    event.preventDefault();
+    if (event.shiftKey) this.store.redo();
+    else this.store.undo();
+  }
+
+  // --- frames --------------------------------------------------------------------------------------------------------
+
+  /** Gives the engines the files that a state needs. */
+  private prepare(lab: Lab): void {
+    if (!lab.tf_toml) return;
+    this.add_file(tf_file(lab), new Blob([lab.tf_toml]));
+  }
+
+  private add_file(name: string, blob: Blob, again = false): void {
+    if (this.files.has(name) && !again) return;
+    this.files.set(name, blob);
+    this.quick.add_file(name, blob);
+    this.slow.add_file(name, blob);
+  }
+
+  private show(shown: Shown): void {
+    const { frame, pictures, draft } = shown;
+    this.shown = shown;
+    this.status.show_error(frame.device_error ?? "");
+    this.scene.show_error("");
+    this.scene.show_idle(frame.idle);
+    this.device.show_error(frame.device_error ?? "", true);
+    this.panes.show(frame, pictures);
+    this.measures.show(shown);
+    this.command.textContent = shown_command(frame.command);
+    this.blame.stale();
+    const root = document.documentElement;
+    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
+    clearTimeout(this.timer);
+    if (draft) return;
+    this.tried.add(shown);
+    this.cycles.wait();
+    this.timer = window.setTimeout(() => this.at_rest(shown.lab), cycles_ms);
+  }
+
+  private fail(message: string, cancelled: boolean): void {
+    document.documentElement.dataset.ready ??= "1";
+    if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
+    const file = this.store.now.volume.startsWith("/files/") ? this.store.now.volume.slice("/files/".length) : "";
+    if (file && !this.files.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
+    if (!this.device.show_error(message)) this.device.show_error("");
+    this.scene.show_error(message);
+    this.status.show_error(message);
+  }
+
+  private at_rest(lab: Lab): void {
+    void this.ask_cycles(lab);
+    this.ask_pixel();
+    this.ask_histogram();
+  }
+
+  /** Asks the engine for slow work; null if the answer is not wanted any more. */
+  private async slowly<T>(ask: Request["ask"], lab: Lab, more: Partial<Request> = {}): Promise<{ json: T; pictures: Shown["pictures"] } | null> {
+    this.prepare(lab);
+    try {
+      return await this.slow.ask<T>(ask, { ...request_of(this.tables, lab, ask), ...more });
+    } catch (error) {
+      if (error instanceof Dropped && !error.cancelled) return null;
+      throw error;
+    }
+  }
+
+  private async ask_cycles(lab: Lab): Promise<void> {
+    this.cycles.wait();
+    try {
+      const hash = this.shown?.frame.config.hash ?? "";
+      const answer = await this.slowly<Cycles>("cycles", lab);
+      if (!answer || lab !== this.store.now) return;
+      this.cycles.show(answer.json);
+      this.tried.add_cycles(lab, hash, answer.json.actual);
+    } catch (error) {
+      if (lab === this.store.now) this.cycles.fail((error as Error).message);
+    }
+  }
+
+  private async ask_errors(): Promise<void> {
+    const lab = this.store.now;
+    this.blame.wait();
+    try {
+      const answer = await this.slowly<Result>("errors", lab);
+      if (!answer) return;
+      if (lab !== this.store.now) return this.blame.stale();
+      this.blame.show(answer.json);
+      this.panes.show_blame(answer.pictures);
+    } catch (error) {
+      this.blame.fail((error as Error).message);
+    }
+  }
+
+  private async ask_pixel(): Promise<void> {
+    const lab = this.store.now;
+    if (!this.story.open || !this.shown || this.shown.draft || this.shown.lab !== lab) return;
+    if (!this.at) return this.story.wait("Click a pixel of a picture.");
+    const { x, y } = this.at;
+    this.story.wait();
+    try {
+      const answer = await this.slowly<Story>("pixel", lab, { x, y });
+      if (answer && lab === this.store.now) this.story.show(answer.json);
+    } catch (error) {
+      this.story.fail((error as Error).message);
+    }
+  }
+
+  // --- transfer function ---------------------------------------------------------------------------------------------
+
+  private edit_tf(): void {
+    this.tf.root.open = true;
+    this.tf.root.scrollIntoView({ behavior: "instant", block: "nearest" });
+    this.tf.root.querySelector("summary")?.focus();
+  }
+
+  private async ask_histogram(): Promise<void> {
+    const lab = this.store.now;
+    const of = tf_key(lab);
+    if (!this.tf.open || of === this.edited) return;
+    try {
+      const answer = await this.slowly<Histogram>("histogram", lab);
+      if (!answer || of !== tf_key(this.store.now)) return;
+      this.edited = of;
+      this.tf.show({ ...answer.json, toml: answer.json.toml ?? (lab.tf_toml || undefined) });
+    } catch (error) {
+      this.tf.fail((error as Error).message);
+    }
+  }
+
+  // --- configurations and files --------------------------------------------------------------------------------------
+
+  /** Loads the values of the configuration without changes. */
+  private async load_base(): Promise<void> {
+    const lab = { ...this.store.now, changes: {} };
+    const of = device_key(lab);
+    if (of === this.base_of) return;
+    this.base_of = of;
+    try {
+      const { json } = await this.quick.ask<Config>("config", request_of(this.tables, lab, "config"));
+      if (of === this.base_of) this.device.show_base(json);
+    } catch {
+      this.base_of = ""; // the frame's error says it
+    }
+  }
+
+  private async save_config(): Promise<void> {
+    try {
+      const { json } = await this.quick.ask<Config>("config", request_of(this.tables, this.store.now, "config"));
+      save(`${json.name.replace(/[^A-Za-z0-9._-]/g, "_")}.toml`, json.toml ?? "");
+    } catch (error) {
+      this.device.show_error((error as Error).message);
+    }
+  }
+
+  /** Takes a configuration if the engine reads it. */
+  private async use_config(toml: string): Promise<void> {
+    if (toml.trim() === "") return;
+    try {
+      await this.quick.ask<Config>("config", request_of(this.tables, { ...this.store.now, toml, changes: {} }, "config"));
+      this.store.set({ toml, changes: {} });
+    } catch (error) {
+      if (!(error instanceof Dropped)) this.device.show_error((error as Error).message);
+    }
+  }
+
+  private async take(list: File[]): Promise<void> {
+    if (list.length === 0) return;
+    try {
+      const { volumes, tf, config } = await taken(list);
+      if (config !== null) await this.use_config(config);
+      // The engine keeps volumes by name, so another file of the same name gets another one.
+      if (volumes.length) while (this.files.has(volumes[0].name)) volumes[0].name = `again-${volumes[0].name}`;
+      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...(volumes.length ? { volume: `/files/${volumes[0].name}` } : {}) };
+      if (scene_key(next) === scene_key(this.store.now) && volumes.length === 0) return;
+      for (const { name, blob } of volumes) this.add_file(name, blob, true);
+      this.prepare(next);
+      // Tried before it is taken: a file that cannot be read leaves everything as it is.
+      await this.quick.ask("file", request_of(this.tables, next, "frame", { width: 64, height: 64 }));
+      if (volumes.length) this.scene.add_volume(next.volume);
+      this.store.set(next);
+    } catch (error) {
+      if (error instanceof Dropped) return;
+      this.status.show_error((error as Error).message.replaceAll("/files/", ""));
+    }
+  }
+}

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lab as its users have it: sliders, links, files, undo, cancelled and dead workers, the pixel's story.
+import assert from "node:assert/strict";
+import { readFileSync, truncateSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { data, figure, median, metaimage, nifti, nrrd, open, place, psnr, rest, reveal, save, settled, shown_hash, start, stop, type } from "./lab_page.mjs";
+
+before(start);
+after(stop);
+
+const small = "#lab?volume=shells:32&config=base&size=128x128";
+const hidden = (page, selector) => page.$eval(selector, (element) => element.hidden || element.offsetParent === null);
+
+test("the first picture, and a slider moved by keyboard", async () => {
+  const page = await open();
+  figure("milliseconds from opening to the first picture", page.first_ms);
+  await settled(page);
+  const before_ = { hash: await shown_hash(page), psnr: await psnr(page) };
+  assert.match(before_.hash, /^[0-9a-f]{16}$/);
+  assert.match(before_.psnr, /^\d+\.\d\d/);
+  const slider = page.locator('.control[data-name="camera.azimuth"] input[type="range"]');
+  await slider.focus();
+  const now = await rest(page, () => page.keyboard.press("ArrowRight"));
+  assert.equal(now.size, "256x256");
+  assert.notEqual(await shown_hash(page), before_.hash);
+  assert.match(await page.textContent("#command"), /--azimuth 31/);
+  assert.equal(await page.$eval('.control[data-name="camera.azimuth"]', (e) => e.classList.contains("changed")), true);
+  await rest(page, () => page.keyboard.press("ArrowLeft"));
+  assert.equal(await shown_hash(page), before_.hash);
+  await page.finish();
+});
+
+test("steps at 128 x 128", async () => {
+  const page = await open({ hash: "#lab?volume=shells:64&config=base&size=128x128" });
+  const step = async (act) => {
+    const frames = Number((await data(page)).frames);
+    await act();
+    await page.waitForFunction((n) => Number(document.documentElement.dataset.frames) > n, frames);
+    const { ms, engineMs } = await data(page);
+    return [Number(ms), Number(engineMs)];
+  };
+  for (const [name, what] of [["camera.azimuth", "camera step"], ["radial.frac_bits", "device step"]]) {
+    await reveal(page, name);
+    const slider = page.locator(`.control[data-name="${name}"] input[type="range"]`);
+    await slider.focus();
+    const times = [];
+    for (let i = 0; i < 9; ++i) times.push(await step(() => page.keyboard.press("ArrowLeft")));
+    figure(`${what} at 128 x 128, shells:64, base, milliseconds, median`, median(times.map(([ms]) => ms)));
+    figure(`${what}, of these in the engine`, median(times.map(([, ms]) => ms)));
+  }
+  await page.finish();
+});
+
+test("the address holds the state", async () => {
+  const page = await open({ hash: small });
+  await rest(page, () => type(page, "camera.azimuth", 77));
+  await rest(page, () => type(page, "radial.frac_bits", 7));
+  await page.click("#tab-scene");
+  await rest(page, () => page.selectOption("#tf", "linear"));
+  await page.locator('canvas[data-view="device"]').click({ position: { x: 100, y: 100 } });
+  await page.click("#copy-link");
+  const link = await page.evaluate(() => window.copied.at(-1));
+  const hash = await shown_hash(page);
+  const other = await open({ hash: link.slice(link.indexOf("#")) });
+  await settled(other);
+  assert.equal(await shown_hash(other), hash);
+  assert.equal(await other.$eval('.control[data-name="radial.frac_bits"]', (e) => e.classList.contains("changed")), true);
+  assert.equal(await other.inputValue("#tf"), "linear");
+  assert.equal(await other.getAttribute(".words caption", "data-at"), await page.getAttribute(".words caption", "data-at"));
+  await other.finish();
+  await page.finish();
+});
+
+test("settings without effect are greyed, with the reason", async () => {
+  const page = await open({ hash: small });
+  const fov = '.control[data-name="camera.fov"]';
+  assert.equal(await page.isDisabled(`${fov} input[type="number"]`), true);
+  assert.match(await page.textContent(`${fov} .why`), /no effect without a perspective camera/);
+  await rest(page, () => page.selectOption('.control[data-name="camera.projection"] select', "perspective"));
+  assert.equal(await page.isDisabled(`${fov} input[type="number"]`), false);
+  await rest(page, () => type(page, "camera.fov", 50));
+  const hash = await shown_hash(page);
+  await rest(page, () => page.selectOption('.control[data-name="camera.projection"] select', "orthographic"));
+  assert.equal(await page.inputValue(`${fov} input[type="number"]`), "50");
+  await rest(page, () => page.selectOption('.control[data-name="camera.projection"] select', "perspective"));
+  assert.equal(await shown_hash(page), hash, "a greyed setting keeps its value");
+  await page.finish();
+});
+
+test("device keys: marked, listed, undone and done again, saved and read", async () => {
+  const page = await open({ hash: small });
+  const first = await shown_hash(page);
+  await reveal(page, "sheet.frac_bits");
+  await rest(page, () => type(page, "sheet.frac_bits", 8));
+  const second = await shown_hash(page);
+  assert.notEqual(second, first);
+  assert.match(await page.textContent("#differences"), /1 key differs from base.*sheet\.frac_bits: 16 . 8/s);
+  await page.locator('canvas[data-view="device"]').focus();
+  await rest(page, () => page.keyboard.press("Control+z"));
+  assert.equal(await shown_hash(page), first);
+  await rest(page, () => page.keyboard.press("Control+Shift+Z"));
+  assert.equal(await shown_hash(page), second);
+  // A file out and in.
+  await page.click("#tab-device");
+  await page.$eval('details[data-group="file"]', (details) => (details.open = true));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-toml")]);
+  await download.saveAs(place("device.toml"));
+  const toml = readFileSync(place("device.toml"), "utf8");
+  assert.match(toml, /frac_bits = 8/);
+  await rest(page, () => page.click("#reset-device"));
+  assert.equal(await shown_hash(page), first);
+  await page.fill("#toml", toml);
+  await rest(page, () => page.click("#use-toml"));
+  assert.equal(await shown_hash(page), second);
+  // An invalid one changes nothing.
+  await page.fill("#toml", "lanes = ");
+  await page.click("#use-toml");
+  await page.waitForFunction(() => !document.querySelector("#device .wrong-line").hidden);
+  assert.equal(await shown_hash(page), second);
+  await rest(page, () => page.selectOption("#config", "tiny"));
+  assert.notEqual(await shown_hash(page), second);
+  await page.finish();
+});
+
+test("of a burst of changes only the newest count", async () => {
+  const page = await open({ hash: "#lab?volume=shells:64&config=base&size=256x256" });
+  await settled(page);
+  const before_ = Number((await data(page)).frames);
+  await reveal(page, "camera.azimuth");
+  await rest(page, () =>
+    page.$eval('.control[data-name="camera.azimuth"] input[type="range"]', (slider) => {
+      for (let i = 1; i <= 40; ++i) {
+        slider.value = String(Number(slider.value) + 1);
+        slider.dispatchEvent(new Event("input"));
+      }
+      slider.dispatchEvent(new Event("change"));
+    }),
+  );
+  const drawn = Number((await data(page)).frames) - before_;
+  figure("frames drawn of 40 changes at once", drawn, "<= 3");
+  assert.ok(drawn <= 3);
+  assert.match(await page.textContent("#command"), /--azimuth 70/);
+  await page.finish();
+});
+
+test("errors stand where they belong", async () => {
+  const page = await open({ hash: small });
+  await type(page, "radial.entries", 3);
+  const why = '.control[data-name="radial.entries"] .why';
+  await page.waitForFunction((s) => /power of two/.test(document.querySelector(s).textContent), why);
+  await rest(page, () => page.click("#undo"));
+  assert.equal(await hidden(page, why), true);
+  await type(page, "kernel.radius", 99);
+  await page.waitForFunction(() => /0\.5\.\.8/.test(document.querySelector('.control[data-name="kernel.radius"] .why').textContent));
+  await rest(page, () => page.click("#undo"));
+  // What the device cannot do is said at the device; golden is drawn.
+  await reveal(page, "method");
+  await rest(page, () => page.selectOption('.control[data-name="method"] select', "raycast"));
+  assert.match(await page.textContent("#error"), /raycast/);
+  assert.deepEqual(await page.$$eval(".frame canvas", (all) => all.map((each) => each.dataset.view)), ["golden"]);
+  await rest(page, () => page.click("#undo"));
+  assert.deepEqual(await page.$$eval(".frame canvas", (all) => all.map((each) => each.dataset.view)), ["golden", "device", "error"]);
+  await page.finish();
+});
+
+test("files: good, cut, foreign, empty, huge", async () => {
+  const page = await open({ hash: small });
+  const before_ = await shown_hash(page);
+  const drop = (...paths) => page.setInputFiles("#file", paths);
+  let taken = 0, refused = 0;
+  const good = async (path, pattern) => {
+    await rest(page, () => drop(path));
+    assert.match(await page.textContent("#volume option:checked"), pattern);
+    assert.match(await shown_hash(page), /^[0-9a-f]{16}$/);
+    assert.equal(await hidden(page, "#error"), true, await page.textContent("#error"));
+    ++taken;
+  };
+  const bad = async (path, pattern) => {
+    const hash = await shown_hash(page);
+    await page.evaluate(() => (document.getElementById("error").textContent = ""));
+    await drop(path);
+    await page.waitForFunction(() => document.getElementById("error").textContent !== "" && !document.getElementById("error").hidden, null, { timeout: 20_000 });
+    const text = await page.textContent("#error");
+    assert.match(text, pattern);
+    assert.doesNotMatch(text, /\n/);
+    assert.equal(await shown_hash(page), hash);
+    ++refused;
+  };
+  const whole = nrrd(24);
+  await good(save("ball.nrrd", whole), /ball\.nrrd/);
+  await bad(save("cut.nrrd", whole.subarray(0, whole.length / 2)), /cut\.nrrd/);
+  await good(save("ball.nii", nifti(24)), /ball\.nii/);
+  const gz = nifti(24, true);
+  await good(save("ball.nii.gz", gz), /ball\.nii\.gz/);
+  await bad(save("cut.nii.gz", gz.subarray(0, gz.length / 2)), /cut\.nii\.gz/);
+  await good(save("ball.mha", metaimage(24)), /ball\.mha/);
+  await bad(save("garbage.nii", Buffer.from("no volume at all, whatever its name is")), /garbage\.nii/);
+  await bad(save("picture.jpg", Buffer.from("x")), /not a volume/);
+  await bad(save("empty.nrrd", Buffer.alloc(0)), /empty/);
+  save("huge.nrrd", nrrd(8));
+  truncateSync(place("huge.nrrd"), 500_000_000);
+  await bad(place("huge.nrrd"), /too large for a page/);
+  // A real drop, with a transfer function; then a configuration.
+  const hash = await shown_hash(page);
+  await rest(page, () =>
+    page.evaluate(() => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File(["points = [{at = 0.1, colour = [1.0, 0.2, 0.1], opacity = 0.0}, {at = 0.9, colour = [0.1, 0.9, 1.0], opacity = 0.6}]\n"], "mine.toml"));
+      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }),
+  );
+  assert.notEqual(await shown_hash(page), hash);
+  await bad(save("wrong.toml", "points = [{at = 0.1}]\n"), /./);
+  await rest(page, () => page.selectOption("#volume", "shells:32"));
+  await rest(page, () => page.selectOption("#tf", ""));
+  assert.equal(await shown_hash(page), before_);
+  figure("files taken", taken, "4");
+  figure("files refused in one line", refused, "7");
+  await page.finish();
+});
+
+test("a worker that dies is started again, with the files it had", async () => {
+  const page = await open({ hash: small });
+  await rest(page, () => page.setInputFiles("#file", save("ball.nrrd", nrrd(24))));
+  await page.waitForTimeout(1500); // cycles
+  for (const worker of page.workers()) await worker.evaluate(() => void setTimeout(() => { throw new Error("killed by the test"); }));
+  await page.waitForFunction(() => !document.getElementById("notice").hidden);
+  assert.match(await page.textContent("#notice"), /stopped .*killed by the test.* started again/);
+  const hash = await shown_hash(page);
+  await rest(page, () => type(page, "camera.azimuth", 60));
+  assert.notEqual(await shown_hash(page), hash);
+  assert.equal(page.workers().length, 2);
+  await page.finish();
+});
+
+test("long work can be cancelled", async () => {
+  const page = await open({ hash: small });
+  const hash = await shown_hash(page);
+  await page.selectOption("#volume", "shells:128");
+  await page.fill("#width", "1024");
+  await page.fill("#height", "1024");
+  await page.press("#height", "Tab");
+  await page.waitForSelector(".working:not([hidden]) .cancel", { timeout: 30_000 });
+  await page.click(".working:not([hidden]) .cancel");
+  await page.waitForFunction(() => /Cancelled/.test(document.getElementById("notice").textContent));
+  await page.click("#undo");
+  await page.click("#undo");
+  while (!(await page.isDisabled("#undo"))) await page.click("#undo");
+  await page.waitForFunction((wanted) => document.getElementById("words-hash").textContent === wanted, hash, { timeout: 60_000 });
+  await page.finish();
+});
+
+test("the pixel's story, the error by step, and the configurations tried", async () => {
+  const page = await open({ hash: "#lab?volume=shells:32&config=base&size=64x64" });
+  await page.locator('canvas[data-view="device"]').click({ position: { x: 150, y: 130 } });
+  await page.click("#pixel summary");
+  await page.waitForSelector("#pixel-lead", { timeout: 60_000 });
+  const at = await page.getAttribute(".words caption", "data-at");
+  assert.equal(await page.getAttribute("#pixel-lead", "data-pixel"), at);
+  assert.ok((await page.$$("#pixel .sheets tbody tr")).length > 2);
+  const title = await page.textContent("#sheet-splats");
+  await page.locator('#pixel [aria-label="Sheets of the pixel"] tbody tr').nth(3).click();
+  assert.notEqual(await page.textContent("#sheet-splats"), title);
+  // Word and value of the first sum agree with its scale.
+  const sums = await page.$$eval('#pixel [aria-label="Sheets of the pixel"] tbody tr', (rows) => rows.map((row) => row.cells[2].querySelector(".value")?.title ?? "").filter((title) => title.includes("word")));
+  assert.ok(sums.length > 2);
+  for (const sum of sums) {
+    const [, value, word] = /device ([\d.e-]+), word (\d+)/.exec(sum);
+    assert.equal(Number(word), Number(value) * 65536);
+  }
+  // Which step errs.
+  await page.click("#ask-errors");
+  await page.waitForSelector("#errors table", { timeout: 120_000 });
+  assert.ok(await page.$('canvas[data-view="blame"]'));
+  // Trials, and back.
+  const first = await shown_hash(page);
+  await page.click("#tab-device");
+  await rest(page, () => page.selectOption("#config", "tiny"));
+  await rest(page, () => page.selectOption("#config", "compact"));
+  assert.equal((await page.$$("#tried tbody tr")).length, 3);
+  await page.waitForFunction(() => /\d/.test(document.getElementById("cycles-actual")?.textContent ?? ""), null, { timeout: 60_000 });
+  await rest(page, () => page.locator("#tried tbody tr", { hasText: "base" }).click());
+  assert.equal(await shown_hash(page), first);
+  await page.finish();
+});
+
+test("the transfer function's editor", async () => {
+  const page = await open({ hash: small });
+  await page.click("#edit-tf");
+  await page.waitForSelector(".tf-point");
+  const hash = await shown_hash(page);
+  await page.locator('.tf-point[data-point="0"]').focus();
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("PageDown");
+  await rest(page, () => page.keyboard.press("Shift+ArrowUp"));
+  const second = await shown_hash(page);
+  assert.notEqual(second, hash);
+  await rest(page, () => page.$eval("#tf-colour", (input) => ((input.value = "#00ff00"), input.dispatchEvent(new Event("change")))));
+  assert.notEqual(await shown_hash(page), second);
+  const points = (await page.$$(".tf-point")).length;
+  await rest(page, () => page.click("#tf-add"));
+  assert.equal((await page.$$(".tf-point")).length, points + 1);
+  const box = await page.locator('.tf-point[data-point="2"]').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 8, box.y - 40, { steps: 3 });
+  await rest(page, () => page.mouse.up());
+  const saved_hash = await shown_hash(page);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#tf-save")]);
+  await download.saveAs(place("saved.toml"));
+  assert.match(readFileSync(place("saved.toml"), "utf8"), /domain = "value"/);
+  // Undone to the end, the editor shows the preset's points again.
+  const many = (await page.$$(".tf-point")).length;
+  while (!(await page.isDisabled("#undo"))) await rest(page, () => page.click("#undo"));
+  assert.equal(await shown_hash(page), hash);
+  await page.waitForFunction((n) => document.querySelectorAll(".tf-point").length === n, points);
+  while (!(await page.isDisabled("#redo"))) await rest(page, () => page.click("#redo"));
+  await page.waitForFunction((n) => document.querySelectorAll(".tf-point").length === n, many);
+  // The link carries it.
+  assert.equal(await shown_hash(page), saved_hash);
+  await page.click("#copy-link");
+  const link = await page.evaluate(() => window.copied.at(-1));
+  const other = await open({ hash: link.slice(link.indexOf("#")) });
+  assert.equal(await shown_hash(other), saved_hash);
+  await other.finish();
+  await page.finish();
+});
+
+test("turned by dragging and by keys", async () => {
+  const page = await open({ hash: small });
+  const hash = await shown_hash(page);
+  const box = await page.locator('canvas[data-view="golden"]').boundingBox();
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 160, box.y + 110, { steps: 5 });
+  await rest(page, () => page.mouse.up());
+  const turned = await shown_hash(page);
+  assert.notEqual(turned, hash);
+  await page.locator('canvas[data-view="golden"]').focus();
+  await rest(page, () => page.keyboard.press("ArrowUp"));
+  assert.notEqual(await shown_hash(page), turned);
+  await rest(page, () => page.click("#undo"));
+  await page.finish();
+});
+
+for (const theme of ["light", "dark"])
+  for (const width of [390, 1280])
+    test(`${width} pixels, ${theme}: nothing sticks out, everything has a name`, async () => {
+      const page = await open({ width, theme, hash: small, touch: width === 390 });
+      for (const details of await page.$$("details")) await details.evaluate((element) => (element.open = true));
+      await page.waitForSelector(".tf-point");
+      await page.waitForFunction(() => /\d/.test(document.getElementById("cycles-actual")?.textContent ?? ""), null, { timeout: 60_000 });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.ok(wide <= 0, `${wide} pixels stick out`);
+      const nameless = await page.$$eval("input, select, textarea, button, summary", (all) =>
+        all
+          .filter((each) => !(each.getAttribute("aria-label") || each.textContent.trim() || each.labels?.length))
+          .map((each) => each.outerHTML.slice(0, 80)),
+      );
+      assert.deepEqual(nameless, []);
+      const twice = await page.evaluate(() => {
+        const ids = [...document.querySelectorAll("[id]")].map((each) => each.id);
+        return ids.filter((id, i) => ids.indexOf(id) !== i);
+      });
+      assert.deepEqual(twice, []);
+      await page.finish();
+    });

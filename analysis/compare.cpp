@@ -82,6 +82,7 @@ CompareReport compare(const Image& ref, const Image& test, const CompareOptions&
 
   const double unit = lsb_per_unit(options.lsb_bits);
   const auto similarity = [&](auto map) {
+    if (!options.similarity) return std::numeric_limits<double>::quiet_NaN();
     return ssim(ref.width, ref.height, ref.channels, options.peak, options.threads,
                 rows_of(ref, test, [](double r, double) { return r; }), rows_of(ref, test, map));
   };

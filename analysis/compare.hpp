@@ -20,7 +20,8 @@ struct CompareOptions {
   std::optional<double> min_psnr_db = {}, max_abs_lsb = {}, max_mean_lsb = {}, max_rmse_lsb = {}, max_bias_lsb = {},
                         max_p99_lsb = {}, min_ssim = {};
   bool allow_nonfinite = false;
-  int threads = 0;  ///< 0: all cores. Never changes the result.
+  bool similarity = true;  ///< SSIM, the slowest figure; NaN without
+  int threads = 0;         ///< 0: all cores. Never changes the result.
 };
 
 /// One channel value; of equal errors the first in row order. error_lsb is signed: test - ref.

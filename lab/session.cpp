@@ -184,6 +184,7 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
     pictures.push_back(words_of("device", drawn.frame));
     analysis::CompareOptions options;
     options.threads = 1;
+    options.similarity = !json.value("quick", false);
     out["words_hash"] = hash_text(hash_of(drawn.frame));
     out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(drawn.frame), options)));
     out["counted"] = drawn.counted;

@@ -35,7 +35,8 @@ struct Answer {
 class Session {
  public:
   /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "pixel" | "histogram" | "config", ...} with the keys
-  /// of lab/request.hpp (lab/README: docs/lab.md has them). Never throws.
+  /// of lab/request.hpp, and of "frame": "counters" (all of them), "quick" (no SSIM); of "pixel": "x" and "y". Never
+  /// throws.
   Answer answer(const std::string& request);
 
  private:

@@ -37,7 +37,7 @@ const std::vector<Known>& known() {
       {"yosys", {"yosys"}, "-V", "Yosys", "netlists and proofs of the RTL, in ./run test", "yosys"},
       {"z3", {"z3"}, "--version", "Z3", "proofs of the RTL, in ./run test", "z3"},
       {"iverilog", {"iverilog"}, "-V", "Icarus", "the RTL in a second simulator, in ./run test", "iverilog"},
-      {"node", {"node", "nodejs"}, "--version", "v", "rebuilding the report's page, its browser tests", "nodejs npm"},
+      {"node", {"node", "nodejs"}, "--version", "v", "rebuilding the report's page, its browser tests", "nodejs"},
       {"chromium",
        {"chromium", "chromium-browser", "google-chrome"},
        "--version",

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The tests of the page, for ctest. usage: run.sh template|browser PROGRAM FOLDER
-# Exit code 77, with the reason, where node, npm, chromium or the registry is not to be had. Packages go into FOLDER.
+# Exit code 77, with the reason, where node, chromium or the registry is not to be had. Packages go into FOLDER.
 set -euo pipefail
 
 what=$1 program=$2 folder=$3
@@ -33,7 +33,7 @@ flock -u 9
 cd -- "$folder"
 case $what in
   template)
-    npx --no-install tsc --noEmit
+    node node_modules/typescript/bin/tsc --noEmit
     node build.mjs "$folder/template.html"
     if ! cmp -- "$folder/template.html" "$web/../template.html"; then
       echo "report/template.html is not what report/web builds: cd report/web && npm ci && node build.mjs" >&2

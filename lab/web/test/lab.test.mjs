@@ -294,6 +294,10 @@ test("the transfer function's editor", async () => {
   await rest(page, () => page.keyboard.press("Shift+ArrowUp"));
   const second = await shown_hash(page);
   assert.notEqual(second, hash);
+  await rest(page, () => page.keyboard.press("Shift+ArrowDown"));
+  assert.equal(await shown_hash(page), hash, "the preset as a file of its own, with its shading");
+  await rest(page, () => page.keyboard.press("Shift+ArrowUp"));
+  assert.equal(await shown_hash(page), second);
   await rest(page, () => page.$eval("#tf-colour", (input) => ((input.value = "#00ff00"), input.dispatchEvent(new Event("change")))));
   assert.notEqual(await shown_hash(page), second);
   const points = (await page.$$(".tf-point")).length;
@@ -338,6 +342,16 @@ test("turned by dragging and by keys", async () => {
   await page.locator('canvas[data-view="golden"]').focus();
   await rest(page, () => page.keyboard.press("ArrowUp"));
   assert.notEqual(await shown_hash(page), turned);
+  // The picture keeps the focus.
+  const focus = () => page.evaluate(() => document.activeElement.dataset.view);
+  assert.equal(await focus(), "golden");
+  await rest(page, () => page.keyboard.press("+"));
+  assert.match(await page.textContent("#command"), /--zoom 1\.1/);
+  assert.equal(await focus(), "golden");
+  // Turned off, keys move the pixel.
+  await page.keyboard.press("t");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => document.querySelector(".words caption").dataset.at === "65,64");
   await rest(page, () => page.click("#undo"));
   await page.finish();
 });

@@ -72,8 +72,8 @@ export class Engine {
     return this.running ? performance.now() - this.begun : 0;
   }
 
-  get busy_with(): string {
-    return this.running?.request.ask ?? "";
+  get busy_with(): Request | null {
+    return this.running?.request ?? null;
   }
 
   /** Asks; a waiting request of the same channel is dropped. */

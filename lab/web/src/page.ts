@@ -154,6 +154,7 @@ export class Page {
     this.history();
     clearTimeout(this.timer);
     document.documentElement.dataset.settled = "false";
+    if (this.slow.busy_with?.ask === "errors") this.slow.cancel();
     this.drawer.draw(live);
     void this.load_base();
     clearTimeout(this.linking);
@@ -211,6 +212,7 @@ export class Page {
     this.panes.show(frame, pictures);
     this.measures.show(shown);
     this.command.textContent = shown_command(frame.command);
+    document.title = `${shown.lab.volume.replace("/files/", "")}, ${frame.config.name}: FastSplat lab`;
     this.blame.stale();
     const root = document.documentElement;
     Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
@@ -271,7 +273,8 @@ export class Page {
       this.blame.show(answer.json);
       this.panes.show_blame(answer.pictures);
     } catch (error) {
-      this.blame.fail((error as Error).message);
+      if (error instanceof Dropped) this.blame.stale();
+      else this.blame.fail((error as Error).message);
     }
   }
 

@@ -71,6 +71,26 @@ test("the address holds the state", async () => {
   await page.finish();
 });
 
+test("addresses that name what is not there", async () => {
+  for (const [hash, pattern] of [
+    ["#lab?volume=nothing:32&config=base&size=128x128", /nothing:32.*known:/],
+    ["#lab?volume=/files/mine.nrrd&config=base&size=128x128", /mine\.nrrd: drop it on the page/],
+    ["#lab?volume=shells:32&config=other&size=128x128", /other/],
+    ["#lab?volume=shells:32&config=base&size=128x128&s.camera.azimuth=east&k.nothing=1", /camera\.azimuth.*number/],
+  ]) {
+    const page = await open({ hash });
+    assert.match(await page.textContent("#error"), pattern);
+    if (hash.includes("mine")) {
+      await rest(page, () => page.setInputFiles("#file", save("mine.nrrd", nrrd(24))));
+    } else {
+      await rest(page, () => page.evaluate((link) => void (location.hash = link), small));
+    }
+    assert.equal(await hidden(page, "#error"), true);
+    assert.match(await shown_hash(page), /^[0-9a-f]{16}$/);
+    await page.finish();
+  }
+});
+
 test("settings without effect are greyed, with the reason", async () => {
   const page = await open({ hash: small });
   const fov = '.control[data-name="camera.fov"]';

@@ -67,6 +67,10 @@ export class Engine {
     this.send({ kind: "file", name, blob });
   }
 
+  remove_file(name: string): void {
+    this.send({ kind: "remove", name });
+  }
+
   /** Milliseconds since the running request began; 0 if none runs. */
   get busy_for(): number {
     return this.running ? performance.now() - this.begun : 0;

@@ -196,7 +196,7 @@ test("files: good, cut, foreign, empty, huge", async () => {
     ++taken;
   };
   const bad = async (path, pattern) => {
-    const hash = await shown_hash(page);
+    const hash = await shown_hash(page), volume = await page.inputValue("#volume");
     await page.evaluate(() => (document.getElementById("error").textContent = ""));
     await drop(path);
     await page.waitForFunction(() => document.getElementById("error").textContent !== "" && !document.getElementById("error").hidden, null, { timeout: 20_000 });
@@ -204,6 +204,7 @@ test("files: good, cut, foreign, empty, huge", async () => {
     assert.match(text, pattern);
     assert.doesNotMatch(text, /\n/);
     assert.equal(await shown_hash(page), hash);
+    assert.equal(await page.inputValue("#volume"), volume);
     ++refused;
   };
   const whole = nrrd(24);

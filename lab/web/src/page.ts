@@ -173,7 +173,8 @@ export class Page {
     this.status.show_error(frame.device_error ?? "");
     this.scene.show_error("");
     this.scene.show_idle(frame.idle);
-    this.device.show_error(frame.device_error ?? "", true);
+    this.device.show_error("");
+    this.device.show_file_error("");
     this.panes.show(frame, pictures);
     this.measures.show(shown);
     this.command.textContent = shown_command(frame.command);
@@ -189,7 +190,7 @@ export class Page {
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
     const file = this.store.now.volume.startsWith("/files/") ? this.store.now.volume.slice("/files/".length) : "";
     if (file && !this.shelf.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
-    if (!this.device.show_error(message)) this.device.show_error("");
+    this.device.show_error(message);
     this.scene.show_error(message);
     this.status.show_error(message);
   }
@@ -215,7 +216,7 @@ export class Page {
       const { json } = await this.quick.ask<Config>("save", request_of(this.tables, this.store.now, "config"));
       save(`${json.name.replace(/[^A-Za-z0-9._-]/g, "_")}.toml`, json.toml ?? "");
     } catch (error) {
-      this.device.show_error((error as Error).message);
+      this.device.show_file_error((error as Error).message);
     }
   }
 
@@ -226,7 +227,9 @@ export class Page {
       await this.quick.ask<Config>("use", request_of(this.tables, { ...this.store.now, toml, changes: {} }, "config"));
       this.store.set({ toml, changes: {} });
     } catch (error) {
-      if (!(error instanceof Dropped)) this.device.show_error((error as Error).message);
+      if (error instanceof Dropped) return;
+      this.device.show_file_error((error as Error).message);
+      this.status.show_error((error as Error).message);
     }
   }
 

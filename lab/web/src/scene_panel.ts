@@ -130,8 +130,8 @@ export class ScenePanel {
     for (const [name, one] of this.controls) one.disable(idle[name] ?? "");
   }
 
-  /** Shows an error at the setting that it names. Returns false if it names none. */
-  show_error(message: string): boolean {
+  /** Shows an error at the setting that it names. */
+  show_error(message: string): void {
     let placed = false;
     for (const [name, one] of this.controls) {
       const { flag } = this.tables.settings.find((setting) => setting.name === name) as Setting;
@@ -139,6 +139,5 @@ export class ScenePanel {
       placed ||= mine;
       one.complain(mine ? message : "");
     }
-    return placed;
   }
 }

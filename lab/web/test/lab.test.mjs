@@ -232,11 +232,14 @@ test("files: good, cut, foreign, empty, huge", async () => {
   );
   assert.notEqual(await shown_hash(page), hash);
   await bad(save("wrong.toml", "points = [{at = 0.1}]\n"), /./);
+  await bad(save("wrong_device.toml", "[array]\nlanes = 3\n"), /./);
   await rest(page, () => page.selectOption("#volume", "shells:32"));
   await rest(page, () => page.selectOption("#tf", ""));
   assert.equal(await shown_hash(page), before_);
+  assert.equal(taken, 4);
   figure("files taken", taken, "4");
-  figure("files refused in one line", refused, "7");
+  assert.equal(refused, 8);
+  figure("files refused in one line", refused, "8");
   await page.finish();
 });
 

@@ -56,6 +56,15 @@ export function control(spec: Spec, changed: Changed): Control {
       set(field.value, true);
     });
     slider.addEventListener("change", () => set(field.value, false));
+    // Arrows in the field move by the slider's steps: by powers of two where only these are valid.
+    field.addEventListener("keydown", (event) => {
+      const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+      if (step === undefined) return;
+      event.preventDefault();
+      const at = Math.min(range.steps, Math.max(0, range.position(Number(field.value)) + step));
+      field.value = range.text(range.value(at));
+      set(field.value, false);
+    });
     field.addEventListener("change", () => field.value.trim() !== "" && set(field.value.trim(), false));
     inputs.push(slider, field);
     write = (text) => {

@@ -14,7 +14,7 @@ export interface Cycles {
 }
 
 const meanings: Record<string, string> = {
-  ideal: "ideal: every window takes one cycle",
+  ideal: "ideal",
   records: "records",
   table_load: "loading tables",
   hidden: "hidden splats",
@@ -63,7 +63,7 @@ export class CyclesPart {
       this.chart,
       {
         title: "Where the cycles go",
-        about: "ideal and losses",
+        about: "ideal: one for each window; then each loss",
         label: all.map(([name, value]) => `${meanings[name] ?? name}: ${value}`).join(", "),
         unit: "cycles",
         from: lost < 0.1 * ideal ? Math.max(0, ideal - 1.5 * lost) : undefined,

@@ -101,19 +101,21 @@ export class DevicePanel {
     }
   }
 
-  /** Shows an error at the key that it names (and opens its group), or above all. */
-  show_error(message: string, general = false): boolean {
+  /** Shows an error of a configuration file. */
+  show_file_error(message: string): void {
+    this.error.hidden = message === "";
+    this.error.textContent = message;
+  }
+
+  /** Shows an error at the key that it names, and opens the key's group. */
+  show_error(message: string): void {
     let placed = false;
     for (const [name, one] of this.controls) {
-      const mine: boolean = !placed && message !== "" && new RegExp(`(^|--set |[\\s'(])${name.replace(".", "\\.")}(=|:|\\s|,)`).test(message) && !general;
+      const mine: boolean = !placed && message !== "" && new RegExp(`(^|--set |[\\s'(])${name.replace(".", "\\.")}(=|:|\\s|,)`).test(message);
       placed ||= mine;
       one.complain(mine ? message : "");
       const details = one.root.closest("details");
       if (mine && details) details.open = true;
     }
-    const here = message !== "";
-    this.error.hidden = !here;
-    this.error.textContent = here ? message : "";
-    return placed;
   }
 }

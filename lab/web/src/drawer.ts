@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks for frames: small ones while a control is moved, the size asked for at rest.
-import type { Answer, Frame, Tables } from "./answers";
+import type { Answer, Frame, Request, Tables } from "./answers";
 import { Dropped, type Engine } from "./engine";
 import type { Lab, Store } from "./lab_state";
 import { reduced, request_of } from "./requests";
@@ -8,6 +8,8 @@ import { reduced, request_of } from "./requests";
 export const draft_side = 128;
 /** A change that is not followed by another one for so long is at rest. */
 const rest_ms = 250;
+/** A frame at rest that a change has made useless, and that has run for so long, is stopped. */
+const useless_ms = 4000;
 /** Frames that took longer are preceded by a draft. */
 const slow_ms = 250;
 
@@ -29,6 +31,7 @@ export class Drawer {
   private last = 0;
   /** The state that was drawn at rest last, or is being drawn. */
   private resting: Lab | null = null;
+  private rest_request: Request | null = null;
 
   constructor(
     private readonly engine: Engine,
@@ -50,6 +53,7 @@ export class Drawer {
     // A slider that is released repeats its last value, which is drawn once.
     if (lab === this.resting) return;
     this.resting = null;
+    if (this.rest_request && this.engine.busy_with === this.rest_request && this.engine.busy_for > useless_ms) this.engine.cancel();
     if (reducible && (live || this.last_ms > slow_ms)) void this.ask(lab, true, turn);
     if (!live || !reducible) void this.rest(lab, turn);
     else this.timer = window.setTimeout(() => this.draw(false), rest_ms);
@@ -65,7 +69,9 @@ export class Drawer {
     this.prepare(lab);
     try {
       const size = draft ? reduced(lab, draft_side) : lab;
-      const { json, pictures, ms } = await this.engine.ask<Frame>("frame", request_of(this.tables, lab, "frame", size));
+      const request = request_of(this.tables, lab, "frame", size);
+      if (!draft) this.rest_request = request;
+      const { json, pictures, ms } = await this.engine.ask<Frame>("frame", request);
       if (!draft) this.last_ms = ms;
       this.shown({ lab, frame: json, pictures, draft, ms: performance.now() - begun, engine_ms: ms });
       return true;

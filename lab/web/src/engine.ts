@@ -67,13 +67,17 @@ export class Engine {
     this.send({ kind: "file", name, blob });
   }
 
+  remove_file(name: string): void {
+    this.send({ kind: "remove", name });
+  }
+
   /** Milliseconds since the running request began; 0 if none runs. */
   get busy_for(): number {
     return this.running ? performance.now() - this.begun : 0;
   }
 
-  get busy_with(): string {
-    return this.running?.request.ask ?? "";
+  get busy_with(): Request | null {
+    return this.running?.request ?? null;
   }
 
   /** Asks; a waiting request of the same channel is dropped. */

@@ -7,6 +7,7 @@ import type { Tables } from "./answers";
 import { Engine, type Files } from "./engine";
 import { Page } from "./page";
 import { load_program } from "./program";
+import { Shelf } from "./shelf";
 import "uplot/dist/uPlot.min.css";
 import "../../../report/web/src/report.css";
 import "../../../report/web/src/viewer/viewer.css";
@@ -23,7 +24,7 @@ async function start(): Promise<void> {
     const quick = new Engine(program, files, (message) => notice(message));
     const tables = await quick.ask<Tables>("tables", { ask: "tables" });
     const slow = new Engine(program, files, (message) => notice(message));
-    const page = new Page(tables.json, quick, slow, files);
+    const page = new Page(tables.json, quick, slow, new Shelf(files, [quick, slow]));
     notice = (message) => page.notice(message);
     page.begin();
   } catch (error) {

@@ -43,10 +43,12 @@ function device_tiles(frame: Frame): HTMLElement {
 export class Measures {
   readonly root = h("section", { class: "box", id: "measures", "aria-label": "Error and cost" });
   private readonly lines = h("div", { id: "figures" });
+  /** Read aloud when a picture is complete. */
+  private readonly spoken = h("p", { class: "off", role: "status" });
   private readonly chart = h("div", { class: "solo" });
 
   constructor() {
-    this.root.append(this.lines, h("details", { open: true }, h("summary", {}, "Histogram of the error"), this.chart));
+    this.root.append(this.spoken, this.lines, h("details", { open: true }, h("summary", {}, "Histogram of the error"), this.chart));
   }
 
   show({ frame, draft, ms }: Shown): void {
@@ -58,6 +60,7 @@ export class Measures {
       ...frame.remarks.map((remark) => note(remark)),
     );
     if (draft) return;
+    this.spoken.textContent = frame.device_error ?? (compare.identical ? "The pictures are identical." : `PSNR ${number_text(compare.psnr_db, { digits: 2 })} dB, largest error ${number_text(compare.max_abs_lsb)} LSB.`);
     clear(this.chart);
     if (compare && !compare.identical) histogram(this.chart, compare);
   }

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: puts its parts together and leads changes from one to the other.
 import { copy, h, say } from "../../../report/web/src/dom";
-import type { Result } from "../../../report/web/src/page";
 import { theme_button } from "../../../report/web/src/theme";
-import type { Config, Histogram, Request, Story, Tables } from "./answers";
-import { BlamePart } from "./blame";
-import { CyclesPart, type Cycles } from "./cycles";
+import type { Config, Tables } from "./answers";
 import { DevicePanel } from "./device_panel";
 import { Drawer, type Shown } from "./drawer";
-import { Dropped, type Engine, type Files } from "./engine";
+import { Dropped, type Engine } from "./engine";
 import { listen_for_files, save, taken } from "./files";
-import { first_lab, Store, type Lab } from "./lab_state";
+import { first_lab, Store } from "./lab_state";
 import { from_link, link_of, view_of_link } from "./link";
 import { Measures } from "./measures";
 import { Panes } from "./panes";
-import { PixelStory } from "./pixel_story";
-import { device_key, request_of, scene_key, shown_command, tf_file, tf_key } from "./requests";
+import { device_key, request_of, shown_command } from "./requests";
 import { ScenePanel } from "./scene_panel";
+import type { Shelf } from "./shelf";
+import { SlowWork } from "./slow_work";
 import { Status } from "./status";
-import { TfEditor } from "./tf_editor";
 import { Tabs } from "./tabs";
 import { Tried } from "./tried";
 import { Turn } from "./turn";
@@ -31,20 +28,14 @@ const keys = [
   "Ctrl + Z and Ctrl + Shift + Z: undo and redo.",
 ];
 
-/** Time at rest before the cycles are asked for. */
-const cycles_ms = 400;
-
 export class Page {
   private readonly store: Store;
   private readonly drawer: Drawer;
   private readonly status: Status;
   private readonly panes: Panes;
   private readonly measures = new Measures();
-  private readonly cycles = new CyclesPart();
-  private readonly blame = new BlamePart(() => this.ask_errors());
-  private readonly story = new PixelStory(() => this.ask_pixel());
   private readonly tried = new Tried((lab) => this.store.set({ config: lab.config, toml: lab.toml, changes: lab.changes }));
-  private readonly tf: TfEditor;
+  private readonly slowly: SlowWork;
   private readonly scene: ScenePanel;
   private readonly device: DevicePanel;
   private readonly tabs: Tabs;
@@ -52,22 +43,17 @@ export class Page {
   private readonly undo = h("button", { type: "button", id: "undo", title: "Ctrl+Z", click: () => this.store.undo() }, "Undo");
   private readonly redo = h("button", { type: "button", id: "redo", title: "Ctrl+Shift+Z", click: () => this.store.redo() }, "Redo");
   private readonly open: () => void;
-  private at: { x: number; y: number } | null = null;
   /** The viewer's link before there is a viewer. */
   private readonly view: string;
-  private shown: Shown | null = null;
-  private timer = 0;
   private linking = 0;
   private base_of = "";
-  /** Volume and function that the editor shows. */
-  private edited = "";
   private frames = 0;
 
   constructor(
     private readonly tables: Tables,
     private readonly quick: Engine,
-    private readonly slow: Engine,
-    private readonly files: Files,
+    slow: Engine,
+    private readonly shelf: Shelf,
   ) {
     const linked = from_link(location.hash, tables);
     this.store = new Store(linked ?? first_lab);
@@ -78,26 +64,20 @@ export class Page {
       read: () => view_of_link(location.hash) || this.view,
       write: (_view, state) => {
         this.address();
-        const moved = JSON.stringify(state.at) !== JSON.stringify(this.at);
-        this.at = state.at;
-        if (moved) this.ask_pixel();
+        this.slowly.choose(state.at);
       },
     });
-    this.tf = new TfEditor(
-      () => this.ask_histogram(),
-      (toml, live) => {
-        this.edited = tf_key({ ...this.store.now, tf_toml: toml });
-        this.store.set({ tf_toml: toml }, "tf", live);
-      },
-      (toml) => save("tf.toml", toml),
-    );
-    this.scene = new ScenePanel(tables, this.store, () => this.edit_tf(), this.open);
+    this.slowly = new SlowWork(tables, slow, this.store, (lab) => this.shelf.prepare(lab), {
+      blame: (pictures) => this.panes.show_blame(pictures),
+      cycles: (lab, hash, actual) => this.tried.add_cycles(lab, hash, actual),
+    });
+    this.scene = new ScenePanel(tables, this.store, () => this.slowly.edit_tf(), this.open);
     this.device = new DevicePanel(tables, this.store, { save: () => void this.save_config(), paste: (text) => void this.use_config(text) });
     this.tabs = new Tabs([
       { id: "scene", title: "Scene", panel: this.scene.root },
       { id: "device", title: "Device", panel: this.device.root },
     ]);
-    this.drawer = new Drawer(quick, tables, this.store, (lab) => this.prepare(lab), (shown) => this.show(shown), (message, cancelled) => this.fail(message, cancelled));
+    this.drawer = new Drawer(quick, tables, this.store, (lab) => this.shelf.prepare(lab), (shown) => this.show(shown), (message, cancelled) => this.fail(message, cancelled));
     this.lay_out();
     this.store.on((_lab, { live }) => this.changed(live));
     addEventListener("hashchange", () => {
@@ -125,10 +105,10 @@ export class Page {
         "div",
         { class: "rest" },
         this.measures.root,
-        h("div", { class: "pair" }, this.cycles.root, this.tried.root),
-        this.story.root,
-        this.tf.root,
-        this.blame.root,
+        h("div", { class: "pair" }, this.slowly.cycles.root, this.tried.root),
+        this.slowly.story.root,
+        this.slowly.tf.root,
+        this.slowly.blame.root,
         h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
       ),
     );
@@ -152,7 +132,7 @@ export class Page {
     this.scene.show(lab);
     this.device.show(lab);
     this.history();
-    clearTimeout(this.timer);
+    this.slowly.changed();
     document.documentElement.dataset.settled = "false";
     this.drawer.draw(live);
     void this.load_base();
@@ -188,127 +168,31 @@ export class Page {
 
   // --- frames --------------------------------------------------------------------------------------------------------
 
-  /** Gives the engines the files that a state needs. */
-  private prepare(lab: Lab): void {
-    if (!lab.tf_toml) return;
-    this.add_file(tf_file(lab), new Blob([lab.tf_toml]));
-  }
-
-  private add_file(name: string, blob: Blob, again = false): void {
-    if (this.files.has(name) && !again) return;
-    this.files.set(name, blob);
-    this.quick.add_file(name, blob);
-    this.slow.add_file(name, blob);
-  }
-
   private show(shown: Shown): void {
     const { frame, pictures, draft } = shown;
-    this.shown = shown;
     this.status.show_error(frame.device_error ?? "");
     this.scene.show_error("");
     this.scene.show_idle(frame.idle);
-    this.device.show_error(frame.device_error ?? "", true);
+    this.device.show_error("");
+    this.device.show_file_error("");
     this.panes.show(frame, pictures);
     this.measures.show(shown);
     this.command.textContent = shown_command(frame.command);
-    this.blame.stale();
+    document.title = `${shown.lab.volume.replace("/files/", "")}, ${frame.config.name}: FastSplat lab`;
+    this.slowly.show(shown);
     const root = document.documentElement;
     Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
-    clearTimeout(this.timer);
-    if (draft) return;
-    this.tried.add(shown);
-    this.cycles.wait();
-    this.timer = window.setTimeout(() => this.at_rest(shown.lab), cycles_ms);
+    if (!draft) this.tried.add(shown);
   }
 
   private fail(message: string, cancelled: boolean): void {
     document.documentElement.dataset.ready ??= "1";
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
     const file = this.store.now.volume.startsWith("/files/") ? this.store.now.volume.slice("/files/".length) : "";
-    if (file && !this.files.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
-    if (!this.device.show_error(message)) this.device.show_error("");
+    if (file && !this.shelf.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
+    this.device.show_error(message);
     this.scene.show_error(message);
     this.status.show_error(message);
-  }
-
-  private at_rest(lab: Lab): void {
-    void this.ask_cycles(lab);
-    this.ask_pixel();
-    this.ask_histogram();
-  }
-
-  /** Asks the engine for slow work; null if the answer is not wanted any more. */
-  private async slowly<T>(ask: Request["ask"], lab: Lab, more: Partial<Request> = {}): Promise<{ json: T; pictures: Shown["pictures"] } | null> {
-    this.prepare(lab);
-    try {
-      return await this.slow.ask<T>(ask, { ...request_of(this.tables, lab, ask), ...more });
-    } catch (error) {
-      if (error instanceof Dropped && !error.cancelled) return null;
-      throw error;
-    }
-  }
-
-  private async ask_cycles(lab: Lab): Promise<void> {
-    this.cycles.wait();
-    try {
-      const hash = this.shown?.frame.config.hash ?? "";
-      const answer = await this.slowly<Cycles>("cycles", lab);
-      if (!answer || lab !== this.store.now) return;
-      this.cycles.show(answer.json);
-      this.tried.add_cycles(lab, hash, answer.json.actual);
-    } catch (error) {
-      if (lab === this.store.now) this.cycles.fail((error as Error).message);
-    }
-  }
-
-  private async ask_errors(): Promise<void> {
-    const lab = this.store.now;
-    this.blame.wait();
-    try {
-      const answer = await this.slowly<Result>("errors", lab);
-      if (!answer) return;
-      if (lab !== this.store.now) return this.blame.stale();
-      this.blame.show(answer.json);
-      this.panes.show_blame(answer.pictures);
-    } catch (error) {
-      this.blame.fail((error as Error).message);
-    }
-  }
-
-  private async ask_pixel(): Promise<void> {
-    const lab = this.store.now;
-    if (!this.story.open || !this.shown || this.shown.draft || this.shown.lab !== lab) return;
-    if (!this.at) return this.story.wait("Click a pixel of a picture.");
-    const { x, y } = this.at;
-    this.story.wait();
-    try {
-      const answer = await this.slowly<Story>("pixel", lab, { x, y });
-      if (answer && lab === this.store.now) this.story.show(answer.json);
-    } catch (error) {
-      this.story.fail((error as Error).message);
-    }
-  }
-
-  // --- transfer function ---------------------------------------------------------------------------------------------
-
-  private edit_tf(): void {
-    this.tf.root.open = true;
-    this.tf.root.scrollIntoView({ behavior: "instant", block: "nearest" });
-    this.tf.root.querySelector("summary")?.focus();
-  }
-
-  private async ask_histogram(): Promise<void> {
-    const lab = this.store.now;
-    const of = tf_key(lab);
-    if (!this.tf.open || of === this.edited) return;
-    try {
-      const answer = await this.slowly<Histogram>("histogram", lab);
-      if (!answer || of !== tf_key(this.store.now)) return;
-      this.edited = of;
-      this.tf.show({ ...answer.json, toml: answer.json.toml ?? (lab.tf_toml || undefined) });
-    } catch (error) {
-      this.tf.fail((error as Error).message);
-    }
   }
 
   // --- configurations and files --------------------------------------------------------------------------------------
@@ -329,10 +213,10 @@ export class Page {
 
   private async save_config(): Promise<void> {
     try {
-      const { json } = await this.quick.ask<Config>("config", request_of(this.tables, this.store.now, "config"));
+      const { json } = await this.quick.ask<Config>("save", request_of(this.tables, this.store.now, "config"));
       save(`${json.name.replace(/[^A-Za-z0-9._-]/g, "_")}.toml`, json.toml ?? "");
     } catch (error) {
-      this.device.show_error((error as Error).message);
+      this.device.show_file_error((error as Error).message);
     }
   }
 
@@ -340,31 +224,32 @@ export class Page {
   private async use_config(toml: string): Promise<void> {
     if (toml.trim() === "") return;
     try {
-      await this.quick.ask<Config>("config", request_of(this.tables, { ...this.store.now, toml, changes: {} }, "config"));
+      await this.quick.ask<Config>("use", request_of(this.tables, { ...this.store.now, toml, changes: {} }, "config"));
       this.store.set({ toml, changes: {} });
     } catch (error) {
-      if (!(error instanceof Dropped)) this.device.show_error((error as Error).message);
+      if (error instanceof Dropped) return;
+      this.device.show_file_error((error as Error).message);
+      this.status.show_error((error as Error).message);
     }
   }
 
   private async take(list: File[]): Promise<void> {
     if (list.length === 0) return;
+    let volume = "";
     try {
       const { volumes, tf, config } = await taken(list);
       if (config !== null) await this.use_config(config);
-      // The engine keeps volumes by name, so another file of the same name gets another one.
-      if (volumes.length) while (this.files.has(volumes[0].name)) volumes[0].name = `again-${volumes[0].name}`;
-      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...(volumes.length ? { volume: `/files/${volumes[0].name}` } : {}) };
-      if (scene_key(next) === scene_key(this.store.now) && volumes.length === 0) return;
-      for (const { name, blob } of volumes) this.add_file(name, blob, true);
-      this.prepare(next);
+      if (volumes.length === 0 && tf === null) return;
+      if (volumes.length) volume = this.shelf.add_volume(volumes);
+      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...(volume ? { volume } : {}) };
+      this.shelf.prepare(next);
       // Tried before it is taken: a file that cannot be read leaves everything as it is.
       await this.quick.ask("file", request_of(this.tables, next, "frame", { width: 64, height: 64 }));
-      if (volumes.length) this.scene.add_volume(next.volume);
+      if (volume) this.scene.add_volume(volume);
       this.store.set(next);
     } catch (error) {
-      if (error instanceof Dropped) return;
-      this.status.show_error((error as Error).message.replaceAll("/files/", ""));
+      this.shelf.remove(volume);
+      if (!(error instanceof Dropped)) this.status.show_error((error as Error).message.replaceAll("/files/", ""));
     }
   }
 }

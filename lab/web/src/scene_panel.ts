@@ -41,6 +41,7 @@ export class ScenePanel {
   private readonly kernel = h("select", { id: "kernel", change: () => this.store.set({ kernel: this.kernel.value }) });
   private readonly width = h("input", { type: "number", id: "width", min: 16, max: most_side, step: 1, "aria-label": "Width in pixels", change: () => this.resize() });
   private readonly height = h("input", { type: "number", id: "height", min: 16, max: most_side, step: 1, "aria-label": "Height in pixels", change: () => this.resize() });
+  private readonly reset = h("button", { type: "button", id: "reset-scene", click: () => this.store.set({ settings: {} }) }, "Reset all settings");
   private readonly files: string[] = [];
   private last_tf_toml = "";
 
@@ -71,6 +72,7 @@ export class ScenePanel {
       ...named("camera.projection"),
       row("Kernel", "kernel", this.kernel),
       row("Size at rest", "width", this.width, h("span", { "aria-hidden": "true" }, "\u00d7"), this.height),
+      this.reset,
       ...groups.map((group) => {
         const inside = tables.settings.filter((setting) => group_of(setting) === group && !own.has(setting.name));
         return h("details", { open: group === "Camera", "data-group": group }, h("summary", {}, group, h("span", { class: "count" })), inside.map(made));
@@ -113,6 +115,7 @@ export class ScenePanel {
     this.kernel.value = lab.kernel;
     if (document.activeElement !== this.width) this.width.value = String(lab.width);
     if (document.activeElement !== this.height) this.height.value = String(lab.height);
+    this.reset.hidden = Object.keys(lab.settings).length === 0;
     for (const [name, one] of this.controls) one.show(lab.settings[name] ?? null);
     for (const details of this.root.querySelectorAll("details")) {
       const names = [...details.querySelectorAll<HTMLElement>("[data-name]")].map((each) => each.dataset.name ?? "");
@@ -127,8 +130,8 @@ export class ScenePanel {
     for (const [name, one] of this.controls) one.disable(idle[name] ?? "");
   }
 
-  /** Shows an error at the setting that it names. Returns false if it names none. */
-  show_error(message: string): boolean {
+  /** Shows an error at the setting that it names. */
+  show_error(message: string): void {
     let placed = false;
     for (const [name, one] of this.controls) {
       const { flag } = this.tables.settings.find((setting) => setting.name === name) as Setting;
@@ -136,6 +139,5 @@ export class ScenePanel {
       placed ||= mine;
       one.complain(mine ? message : "");
     }
-    return placed;
   }
 }

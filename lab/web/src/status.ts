@@ -28,7 +28,7 @@ export class Status {
     for (const { engine, root, text } of this.lines) {
       const ms = engine.busy_for;
       root.hidden = ms < patience_ms;
-      if (!root.hidden) text.textContent = `Working on ${names[engine.busy_with] ?? engine.busy_with}\u2026 ${Math.floor(ms / 1000)} s `;
+      if (!root.hidden) text.textContent = `Working on ${names[engine.busy_with?.ask ?? ""]}\u2026 ${Math.floor(ms / 1000)} s `;
     }
   }
 

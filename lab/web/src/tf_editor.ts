@@ -75,7 +75,9 @@ export class TfEditor {
     if (!point || !this.histogram) return;
     const [before, after] = [this.points[this.chosen - 1], this.points[this.chosen + 1]];
     const { min, max } = this.span;
-    const next = { ...point, ...part };
+    // Edited values are rounded, others stay as they are.
+    const rounded = (value: number | undefined, otherwise: number): number => (value === undefined ? otherwise : Number(value.toPrecision(6)));
+    const next = { ...point, ...part, at: rounded(part.at, point.at), opacity: rounded(part.opacity, point.opacity) };
     next.at = Math.min(after?.at ?? max, Math.max(before?.at ?? min, Number.isFinite(next.at) ? next.at : point.at));
     next.opacity = Math.min(1, Math.max(0, Number.isFinite(next.opacity) ? next.opacity : point.opacity));
     this.points = this.points.map((each, i) => (i === this.chosen ? next : each));
@@ -89,7 +91,7 @@ export class TfEditor {
     const here = this.points[this.chosen];
     const place = at ?? (after ? (here.at + after.at) / 2 : (here.at + this.span.max) / 2);
     const point = at_value(this.points, place);
-    this.points = [...this.points, { ...point, opacity: opacity ?? point.opacity }].sort((a, b) => a.at - b.at);
+    this.points = [...this.points, { ...point, opacity: Number((opacity ?? point.opacity).toPrecision(6)) }].sort((a, b) => a.at - b.at);
     this.chosen = this.points.findIndex((each) => each.at === place);
     this.draw();
     this.changed(toml_of(this.points, this.rest), false);

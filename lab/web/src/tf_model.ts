@@ -9,7 +9,7 @@ export interface Point {
 }
 
 const number = (value: number): string => {
-  const text = String(Number(value.toPrecision(8)));
+  const text = String(value);
   return /[.e]/.test(text) ? text : `${text}.0`;
 };
 

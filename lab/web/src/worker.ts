@@ -19,7 +19,7 @@ type Instantiate = (imports: WebAssembly.Imports, done: (instance: WebAssembly.I
 declare const engine: (options: { instantiateWasm: Instantiate; print: (text: string) => void; printErr: (text: string) => void }) => Promise<Module>;
 
 /** What the page sends: first the compiled engine, then files and requests. */
-export type ToWorker = { kind: "start"; module: WebAssembly.Module } | { kind: "file"; name: string; blob: Blob } | { kind: "ask"; id: number; request: Request };
+export type ToWorker = { kind: "start"; module: WebAssembly.Module } | { kind: "file"; name: string; blob: Blob } | { kind: "remove"; name: string } | { kind: "ask"; id: number; request: Request };
 /** What it gets back. `dead`: the engine is in no state to go on. */
 export type FromWorker =
   | { kind: "ready" }
@@ -64,6 +64,8 @@ async function take(message: ToWorker): Promise<void> {
     scope.postMessage({ kind: "ready" });
   } else if (message.kind === "file") {
     module?.FS.writeFile(`/files/${message.name}`, new Uint8Array(await message.blob.arrayBuffer()));
+  } else if (message.kind === "remove") {
+    module?.FS.unlink(`/files/${message.name}`);
   } else {
     try {
       const { json, words, ms } = answer(message.request);

@@ -71,6 +71,26 @@ test("the address holds the state", async () => {
   await page.finish();
 });
 
+test("addresses that name what is not there", async () => {
+  for (const [hash, pattern] of [
+    ["#lab?volume=nothing:32&config=base&size=128x128", /nothing:32.*known:/],
+    ["#lab?volume=/files/mine.nrrd&config=base&size=128x128", /mine\.nrrd: drop it on the page/],
+    ["#lab?volume=shells:32&config=other&size=128x128", /other/],
+    ["#lab?volume=shells:32&config=base&size=128x128&s.camera.azimuth=east&k.nothing=1", /camera\.azimuth.*number/],
+  ]) {
+    const page = await open({ hash });
+    assert.match(await page.textContent("#error"), pattern);
+    if (hash.includes("mine")) {
+      await rest(page, () => page.setInputFiles("#file", save("mine.nrrd", nrrd(24))));
+    } else {
+      await rest(page, () => page.evaluate((link) => void (location.hash = link), small));
+    }
+    assert.equal(await hidden(page, "#error"), true);
+    assert.match(await shown_hash(page), /^[0-9a-f]{16}$/);
+    await page.finish();
+  }
+});
+
 test("settings without effect are greyed, with the reason", async () => {
   const page = await open({ hash: small });
   const fov = '.control[data-name="camera.fov"]';
@@ -176,7 +196,7 @@ test("files: good, cut, foreign, empty, huge", async () => {
     ++taken;
   };
   const bad = async (path, pattern) => {
-    const hash = await shown_hash(page);
+    const hash = await shown_hash(page), volume = await page.inputValue("#volume");
     await page.evaluate(() => (document.getElementById("error").textContent = ""));
     await drop(path);
     await page.waitForFunction(() => document.getElementById("error").textContent !== "" && !document.getElementById("error").hidden, null, { timeout: 20_000 });
@@ -184,6 +204,7 @@ test("files: good, cut, foreign, empty, huge", async () => {
     assert.match(text, pattern);
     assert.doesNotMatch(text, /\n/);
     assert.equal(await shown_hash(page), hash);
+    assert.equal(await page.inputValue("#volume"), volume);
     ++refused;
   };
   const whole = nrrd(24);
@@ -211,11 +232,14 @@ test("files: good, cut, foreign, empty, huge", async () => {
   );
   assert.notEqual(await shown_hash(page), hash);
   await bad(save("wrong.toml", "points = [{at = 0.1}]\n"), /./);
+  await bad(save("wrong_device.toml", "[array]\nlanes = 3\n"), /./);
   await rest(page, () => page.selectOption("#volume", "shells:32"));
   await rest(page, () => page.selectOption("#tf", ""));
   assert.equal(await shown_hash(page), before_);
+  assert.equal(taken, 4);
   figure("files taken", taken, "4");
-  figure("files refused in one line", refused, "7");
+  assert.equal(refused, 8);
+  figure("files refused in one line", refused, "8");
   await page.finish();
 });
 
@@ -294,6 +318,10 @@ test("the transfer function's editor", async () => {
   await rest(page, () => page.keyboard.press("Shift+ArrowUp"));
   const second = await shown_hash(page);
   assert.notEqual(second, hash);
+  await rest(page, () => page.keyboard.press("Shift+ArrowDown"));
+  assert.equal(await shown_hash(page), hash, "the preset as a file of its own, with its shading");
+  await rest(page, () => page.keyboard.press("Shift+ArrowUp"));
+  assert.equal(await shown_hash(page), second);
   await rest(page, () => page.$eval("#tf-colour", (input) => ((input.value = "#00ff00"), input.dispatchEvent(new Event("change")))));
   assert.notEqual(await shown_hash(page), second);
   const points = (await page.$$(".tf-point")).length;
@@ -338,6 +366,16 @@ test("turned by dragging and by keys", async () => {
   await page.locator('canvas[data-view="golden"]').focus();
   await rest(page, () => page.keyboard.press("ArrowUp"));
   assert.notEqual(await shown_hash(page), turned);
+  // The picture keeps the focus.
+  const focus = () => page.evaluate(() => document.activeElement.dataset.view);
+  assert.equal(await focus(), "golden");
+  await rest(page, () => page.keyboard.press("+"));
+  assert.match(await page.textContent("#command"), /--zoom 1\.1/);
+  assert.equal(await focus(), "golden");
+  // Turned off, keys move the pixel.
+  await page.keyboard.press("t");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => document.querySelector(".words caption").dataset.at === "65,64");
   await rest(page, () => page.click("#undo"));
   await page.finish();
 });

@@ -45,6 +45,12 @@ const row_height = 31;
 const whole_up_to = 120; // rows: shorter tables are in the page completely
 const margin = 12; // rows drawn beyond the edges
 
+/** Draws the rows of each table in the page; tables that were removed are forgotten. */
+const drawn = new WeakMap<Element, (all: boolean) => void>();
+const draw_all = (all: boolean): void => document.querySelectorAll(".table").forEach((root) => drawn.get(root)?.(all));
+addEventListener("beforeprint", () => draw_all(true));
+addEventListener("afterprint", () => draw_all(false));
+
 type Test = (value: (name: string) => unknown, all: string) => boolean;
 
 /** Parses "kind=circle psnr>60 head": every word must match; a word without a comparison may occur anywhere in the
@@ -232,8 +238,7 @@ export function table<Row>(parent: HTMLElement, options: TableOptions<Row>): Tab
       draw();
     });
   });
-  addEventListener("beforeprint", () => draw(true));
-  addEventListener("afterprint", () => draw());
+  drawn.set(root, draw);
   arrange();
   return {
     root,

@@ -83,10 +83,11 @@ export class Viewer {
   /** Shows other pictures. State stays: the same part of the frame and the same pixel, also in another size. */
   replace(scenes: { name: string; scene: Scene }[]): void {
     const { scene: before } = this;
-    const shape = (of: Scene): string => [of.width / of.height, ...of.planes.map((plane) => `${plane.picture.id} ${plane.picture.title} ${plane.top_word}`)].join();
+    const shape = (of: Scene): string => [...of.planes.map((plane) => `${plane.picture.id} ${plane.picture.title} ${plane.top_word}`)].join();
     const first = scenes[Math.min(this.state.group, scenes.length - 1)].scene;
     const grown = first.width / before.width;
-    const same = scenes.length === this.scenes.length && shape(first) === shape(before);
+    // Sizes that were rounded differ a little in shape.
+    const same = scenes.length === this.scenes.length && shape(first) === shape(before) && Math.abs((first.width * before.height) / (first.height * before.width) - 1) < 0.03;
     const at = this.chosen && { x: Math.floor(this.chosen.x * first.width), y: Math.floor(this.chosen.y * first.height) };
     this.scenes = scenes;
     this.hover = null;
@@ -230,6 +231,7 @@ export class Viewer {
 
   private build_panes(): void {
     const { state, scene } = this;
+    const focused = this.panes.contains(document.activeElement) ? document.activeElement?.getAttribute("data-view") : null;
     this.surfaces = [];
     this.used = 0;
     const pane = (key: string, title: string, views: () => View[], more: Child = null): HTMLElement => {
@@ -252,6 +254,7 @@ export class Viewer {
       const title = state.mode === "slider" ? `${a?.title} | ${b?.title}` : `${a?.title} and ${b?.title} in turn`;
       this.panes.replaceChildren(pane(state.mode, title, both));
     }
+    if (focused) this.surfaces.find(({ canvas }) => canvas.dataset.view === focused)?.canvas.focus({ preventScroll: true });
     this.panes.dataset.mode = state.mode;
     this.panes.dataset.count = String(this.surfaces.length);
   }

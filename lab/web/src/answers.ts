@@ -61,6 +61,8 @@ export interface Config {
   /** Per technology: lut, ff, bram, dsp. Null if this device was not synthesised. */
   synthesis: Record<string, Record<string, number | string>> | null;
   toml?: string;
+  /** Without SSIM. */
+  quick?: boolean;
 }
 
 export interface Frame {
@@ -87,6 +89,8 @@ export interface Histogram {
   dims: [number, number, number];
   /** The resolved transfer function as TOML, if the engine has it. */
   toml?: string;
+  /** Without SSIM. */
+  quick?: boolean;
 }
 
 export interface Value {
@@ -117,6 +121,8 @@ export interface Request {
   config?: string;
   changes?: string[];
   toml?: string;
+  /** Without SSIM. */
+  quick?: boolean;
   x?: number;
   y?: number;
 }

@@ -69,7 +69,7 @@ export class Drawer {
     this.prepare(lab);
     try {
       const size = draft ? reduced(lab, draft_side) : lab;
-      const request = request_of(this.tables, lab, "frame", size);
+      const request = { ...request_of(this.tables, lab, "frame", size), quick: draft };
       if (!draft) this.rest_request = request;
       const { json, pictures, ms } = await this.engine.ask<Frame>("frame", request);
       if (!draft) this.last_ms = ms;

@@ -66,7 +66,7 @@ FASTSPLAT_OF_RANGE(replace)
 FASTSPLAT_OF_RANGE(move)
 #undef FASTSPLAT_OF_RANGE
 
-// Those that are used with a projection.
+// Used with a projection.
 #define FASTSPLAT_BY_TEST(name)                                                                                    \
   template <typename R, typename Test, typename Projection = identity>                                             \
   constexpr bool name(R&& range, Test test, Projection projection = {}) {                                          \

@@ -75,6 +75,8 @@ TEST(LabSession, AFrameIsTheDriversAndGoldens) {
       const auto& words = answer.pictures[1].words;
       EXPECT_TRUE(std::equal(words.begin(), words.end(), drawn.frame.words.begin(), drawn.frame.words.end(),
                              [](std::int32_t a, std::uint32_t b) { return static_cast<std::uint32_t>(a) == b; }));
+      EXPECT_EQ(answer.pictures[1].int_bits, drawn.frame.int_bits);
+      EXPECT_EQ(answer.pictures[1].scale, std::int64_t{1} << drawn.frame.frac_bits);
       std::uint64_t hash = kFnv1aStart;
       for (const std::uint32_t word : drawn.frame.words) hash = fnv1a(hash, std::uint64_t{word});
       EXPECT_EQ(json["words_hash"], hash_text(hash));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory with one registered read port and one write port. A read of the word being written returns an undefined value
-// that nothing may depend on. All memories of the device are instances of it. A vendor's macro with self-test and error
-// correction can replace it by BITS and WORDS; these get no cycle of their own (docs/integration.md, "Memories").
+// Memory with one registered read port and one write port. The output keeps its word until the next read. A read of the
+// word being written returns an undefined value that nothing may depend on. All memories of the device are instances of
+// it. A vendor's macro with self-test and error correction can replace it by BITS and WORDS; these get no cycle of their
+// own (docs/integration.md, "Memories").
 module fastsplat_ram_1r1w #(
     parameter int BITS  = 8,
     parameter int WORDS = 16,

@@ -153,7 +153,8 @@ module fastsplat_fetch #(
   assign wants_sets = phase_q == PhPlain && sets_q != '0;
   assign wants_all = phase_q == PhSets && counted_q && trusts_q;
   assign wants_run = (phase_q == PhSets && counted_q && !trusts_q) || (phase_q == PhRuns && !last_run_q);
-  assign run_take = (!run_valid_q || ends_run) && wants_run && run_valid && !failed && !stop;
+  // After an error or a stop nothing is requested: runs that are taken then are forgotten.
+  assign run_take = (!run_valid_q || ends_run) && wants_run && run_valid;
   // The last group's run may be empty; the next command's then follows at once.
   assign wants_command = (!run_valid_q || ends_run) && !failed && (!(wants_sets || wants_all || wants_run) || (run_take && run_beats == '0));
   assign s_axis_cmd_tready = wants_command || stop;
@@ -217,10 +218,10 @@ module fastsplat_fetch #(
   assign sent_set = sends && sending_set;
   assign sent_counted = sending_counted;
 
-  logic waits;  // a requested beat has not been sent
-  assign waits = m_axi_arvalid || outstanding_q != '0 || unsent_q != '0;
+  logic waits;  // a requested beat has not been sent; outstanding_q counts an offered burst, too
+  assign waits = outstanding_q != '0 || unsent_q != '0;
   assign forget = stop && !waits;
-  assign busy = waits || ((run_valid_q || wants_sets || wants_all || wants_run) && !failed);
+  assign busy = waits || ((run_valid_q || wants_run) && !failed);
 
   always_ff @(posedge clk_i) begin
     unsent_q <= unsent_q + DB'(arrives) - DB'(sends);
@@ -240,12 +241,12 @@ module fastsplat_fetch #(
       left_q <= burst_left;
     end
     if (ends_run) run_valid_q <= 1'b0;
-    if ((!run_valid_q || ends_run) && wants_sets && !failed) begin
+    if (ends_run && wants_sets) begin
       run_valid_q <= 1'b1;
       phase_q <= PhSets;
       left_q <= 32'(sets_q);
     end
-    if ((!run_valid_q || ends_run) && wants_all && !failed) begin  // they lie behind the cull_blocks
+    if (ends_run && wants_all) begin  // they lie behind the cull_blocks
       run_valid_q <= 1'b1;
       phase_q <= PhRuns;
       left_q <= splats_q;
@@ -268,8 +269,6 @@ module fastsplat_fetch #(
       splats_q <= command_splats;
       counted_q <= command_splats != '0;
       body_q <= command_address + (AB'(command_beats) << BEAT_LOG2);
-    end else if (wants_command) begin
-      phase_q <= PhNone;
     end
     if (judges) begin
       if (verdict_hidden && judged_splats != 32'd0) hides_q <= 1'b1;
@@ -287,7 +286,6 @@ module fastsplat_fetch #(
       error <= NONE;
       run_valid_q <= 1'b0;
       phase_q <= PhNone;
-      last_run_q <= 1'b0;
       hides_q <= 1'b0;
       room_q <= DB'(1 << DEPTH_LOG2);
     end

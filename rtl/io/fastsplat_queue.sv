@@ -19,19 +19,11 @@ module fastsplat_queue #(
 );
   localparam int WORDS = 1 << LOG2;
 
-  // put_q - read_q: words in the memory. fetched_q: one was read in the cycle before. held_q: read earlier and not
-  // taken; the second of these is still the memory's output.
+  // put_q - read_q: words in the memory that were not read. shown_q: one was, and was not taken; it is the memory's output.
   logic [LOG2:0] put_q, read_q;
-  logic fetched_q;
-  logic [1:0] held_q, shown, left;
-  logic [BITS-1:0] fetched, first_q;
-  logic taken, read;
-  assign valid_o = shown != 2'd0;
-  assign data_o = (held_q != 2'd0) ? first_q : fetched;
-  assign taken = take_i && valid_o;
-  assign shown = held_q + 2'(fetched_q);
-  assign left = shown - 2'(taken);
-  assign read = put_q != read_q && left < 2'd2;
+  logic shown_q, read;
+  assign valid_o = shown_q;
+  assign read = put_q != read_q && (!shown_q || take_i);
 
   fastsplat_ram_1r1w #(
       .BITS(BITS),
@@ -41,7 +33,7 @@ module fastsplat_queue #(
       .clk_i(clk_i),
       .re_i(read),
       .raddr_i(read_q[LOG2-1:0]),
-      .rdata_o(fetched),
+      .rdata_o(data_o),
       .we_i(put_i),
       .waddr_i(put_q[LOG2-1:0]),
       .wdata_i(data_i)
@@ -50,14 +42,11 @@ module fastsplat_queue #(
   always_ff @(posedge clk_i) begin
     if (put_i) put_q <= put_q + (LOG2 + 1)'(1);
     if (read) read_q <= read_q + (LOG2 + 1)'(1);
-    fetched_q <= read;
-    held_q <= left;
-    if (taken || held_q == 2'd0) first_q <= fetched;
+    shown_q <= read || (shown_q && !take_i);
     if (!rst_ni || clear_i) begin
       put_q <= '0;
       read_q <= '0;
-      fetched_q <= 1'b0;
-      held_q <= '0;
+      shown_q <= 1'b0;
     end
   end
   `FASTSPLAT_ASSUME(queue_has_room, !put_i || put_q - read_q != (LOG2 + 1)'(WORDS))

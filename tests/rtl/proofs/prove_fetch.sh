@@ -24,9 +24,9 @@ smt queue queue "$few"
 holds queue 2 "queue: all words put in come out, in order, in their cycle; four words of three bits"
 happens queue 14
 queue_broken() { smt "queue_$1" queue "$few" "$2"; refuted "queue_$1" 12; }
-queue_broken reads_too_much "s/left < 2'd2/left <= 2'd2/"
-queue_broken keeps_the_first "s/if (taken || held_q == 2'd0) first_q/if (held_q == 2'd0) first_q/"
-queue_broken shows_the_memory "s/(held_q != 2'd0) ? first_q : fetched/(held_q == 2'd1) ? first_q : fetched/"
+queue_broken reads_too_much "s/(!shown_q || take_i)/1'b1/"
+queue_broken not_held "s/shown_q <= read || .*/shown_q <= read;/"
+queue_broken half_as_fast "s/(!shown_q || take_i)/!shown_q/"
 queue_broken late "s/assign read = put_q != read_q \&\&/assign read = put_q - read_q > (LOG2 + 1)'(1) \&\&/"
 
 smt slice slice "-set BITS 3"

@@ -18,7 +18,15 @@ always @(posedge clk_i) begin
   end
   if (!rst_ni) f_read_q <= 1'b0;
 end
-always @* assume (!f_read_q || fetched == f_read_word_q);
+always @* assume (!f_read_q || data_o == f_read_word_q);
+// Its output stays until the next read.
+logic [BITS-1:0] f_last_q;
+logic f_reads_q;
+always @(posedge clk_i) begin
+  f_last_q <= data_o;
+  f_reads_q <= read;
+end
+always @* assume (!f_started || f_reads_q || data_o == f_last_q);
 
 // How many are in it; one of those put at the address, any, is followed: f_before are in front of it.
 localparam int FB = LOG2 + 2;
@@ -27,19 +35,21 @@ logic f_followed_q, f_young_q;
 (* anyseq *) logic f_follow;
 logic [BITS-1:0] f_data_q;
 logic [LOG2:0] f_slot;
+logic f_taken;
+assign f_taken = take_i && valid_o;
 assign f_stored = FB'((LOG2 + 1)'(put_q - read_q));
-assign f_slot = read_q + (LOG2 + 1)'(f_before_q - FB'(shown));  // where it lies while it is in the memory
+assign f_slot = read_q + (LOG2 + 1)'(f_before_q - FB'(shown_q));  // where it lies while it is in the memory
 always @* assume (!put_i || f_count_q < FB'(WORDS));
 always @(posedge clk_i) begin
-  f_count_q <= f_count_q + FB'(put_i) - FB'(taken);
+  f_count_q <= f_count_q + FB'(put_i) - FB'(f_taken);
   f_young_q <= put_i;  // the youngest was put in the cycle before
-  if (taken) begin
+  if (f_taken) begin
     if (f_before_q == 0) f_followed_q <= 1'b0;
     else f_before_q <= f_before_q - FB'(1);
   end
   if (put_i && f_follow && !f_followed_q && put_q[LOG2-1:0] == f_address) begin
     f_followed_q <= 1'b1;
-    f_before_q <= f_count_q - FB'(taken);
+    f_before_q <= f_count_q - FB'(f_taken);
     f_data_q <= data_i;
   end
   if (!rst_ni || clear_i) begin
@@ -55,17 +65,15 @@ always @(posedge clk_i) begin
     assert (valid_o == (f_count_q > FB'(f_young_q)));
     assert (!put_i || f_stored < FB'(WORDS));
     // Where all of it is, for induction.
-    assert (f_count_q == f_stored + FB'(shown) && f_count_q <= FB'(WORDS));
-    assert (shown <= 2'd2 && held_q != 2'd3);
-    assert (f_stored == 0 || shown != 0 || (f_stored == 1 && f_young_q));
+    assert (f_count_q == f_stored + FB'(shown_q) && f_count_q <= FB'(WORDS));
+    assert (f_stored == 0 || shown_q || (f_stored == 1 && f_young_q));
     assert (!f_young_q || f_stored != 0);
     assert (!f_followed_q || f_before_q < f_count_q);
     if (f_followed_q) begin
-      if (f_before_q >= FB'(shown)) assert (f_slot[LOG2-1:0] == f_address && f_word_q == f_data_q);
-      else if (f_before_q != 0 || held_q == 0) assert (f_read_q && f_read_word_q == f_data_q);
-      else assert (first_q == f_data_q);
+      if (f_before_q >= FB'(shown_q)) assert (f_slot[LOG2-1:0] == f_address && f_word_q == f_data_q);
+      else assert (f_read_q && f_read_word_q == f_data_q);
     end
-    cover (f_followed_q && f_before_q == 0 && taken && f_count_q == FB'(WORDS));
-    cover (valid_o && take_i && held_q == 2'd2);
+    cover (f_followed_q && f_before_q == 0 && f_taken && f_count_q == FB'(WORDS));
+    cover (valid_o && !take_i && f_stored != 0);
   end
 end

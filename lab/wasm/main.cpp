@@ -21,5 +21,3 @@ const char* lab_json() { return answer.json.c_str(); }
 /// The words of picture `at`: width * height * channels.
 const std::int32_t* lab_words(std::size_t at) { return answer.pictures[at].words.data(); }
 }
-
-int main() {}

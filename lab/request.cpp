@@ -93,13 +93,16 @@ std::string command_line(const Json& request, const Request& read) {
   const scene::SceneDescription& d = read.scene;
   std::string line = fmt::format("fastsplat render --volume {}", shell_word(d.volume));
   if (!d.transfer_function.empty()) line += " --tf " + shell_word(d.transfer_function);
-  if (!d.kernel.empty() && d.kernel != scene::SceneDescription{}.kernel) line += " --kernel " + shell_word(d.kernel);
+  // A shape is told whole: the program would take the missing half from its default kernel.
+  if (d.kernel.empty())
+    line += fmt::format(" --kernel-a {} --kernel-radius {}", d.kernel_a, d.kernel_radius);
+  else if (d.kernel != scene::SceneDescription{}.kernel)
+    line += " --kernel " + shell_word(d.kernel);
   line += d.width == d.height ? fmt::format(" --size {}", d.width) : fmt::format(" --size {}x{}", d.width, d.height);
   const Json settings = request.value("settings", Json::object());
   for (const auto& [name, value] : settings.items()) {
     const auto& setting = setting_named(name);
-    if (is_idle(read, name)) continue;
-    if (scene::at_default(setting, d)) continue;
+    if (is_idle(read, name) || scene::at_default(setting, d) || shapes_kernel(name)) continue;
     if (name == "camera.projection") line += " --perspective";
     if (*setting.flag != '\0') line += fmt::format(" {} {}", setting.flag, shell_word(value.get<std::string>()));
   }

@@ -20,17 +20,17 @@ struct Idle {
 
 /// {"volume": "shells:64", "tf": "", "kernel": "gauss2", "settings": {"camera.azimuth": "30", ...},
 ///  "config": "base", "changes": ["radial.entries=256"]}; each key may be absent. Values are texts as flags take them.
+/// "toml", a configuration file's text, stands in place of "config".
 struct Request {
   scene::SceneDescription scene;
   cmodel::Config config;
   std::vector<Idle> idle;  ///< left out of `scene`
 };
 
-/// Throws UserError about the first invalid value. `toml`, if not empty, is a configuration file's text instead of
-/// "config" and "changes".
+/// Throws UserError about the first invalid value.
 Request read_request(const nlohmann::ordered_json& json);
 
-/// `fastsplat render` with the flags that give this scene and, unless `config` is empty, this device.
+/// `fastsplat render` with the flags that draw the same words; mine.toml stands for a configuration given as "toml".
 std::string command_line(const nlohmann::ordered_json& request, const Request& read);
 
 }  // namespace fastsplat::lab

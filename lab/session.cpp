@@ -171,26 +171,18 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
   Kept& one = kept(request.scene);
   const Image& golden = golden_of(one);
   pictures.push_back(words_of("golden", golden));
-  Json out{{"idle", idle_json(request.idle)},
-           {"command", command_line(json, request)},
-           {"toml", scene::to_toml(request.scene)},
-           {"remarks", one.scene.remarks},
-           {"width", golden.width},
-           {"height", golden.height},
-           {"config", config_json(request.config)}};
+  Json out{{"idle", idle_json(request.idle)}, {"command", command_line(json, request)},
+           {"remarks", one.scene.remarks},    {"width", golden.width},
+           {"height", golden.height},         {"config", config_json(request.config)}};
   try {
-    const auto drawn = driver::render(one.scene, request.config,
-                                      {.threads = 1, .counters = json.value("counters", false), .progress = {}});
+    const auto drawn = driver::render(one.scene, request.config, {.threads = 1, .counters = false, .progress = {}});
     pictures.push_back(words_of("device", drawn.frame));
     analysis::CompareOptions options;
     options.threads = 1;
     options.similarity = !json.value("quick", false);
     out["words_hash"] = hash_text(hash_of(drawn.frame));
     out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(drawn.frame), options)));
-    out["counted"] = drawn.counted;
-    out["counters"] = counted_json(drawn.counters);
     out["records"] = drawn.report.splat_records;
-    out["vectors"] = drawn.units.vectors != nullptr ? Json(drawn.units.vectors) : Json(nullptr);
   } catch (const UserError& error) {
     out["device_error"] = error.what();
   }
@@ -220,9 +212,7 @@ Json Session::cycles(const Json& json) {
         out["actual"] = model.stalls().busy;
         out["idle"] = model.idle_cycles();
         out["end"] = model.end_cycle();
-        out["beats"] = model.sent_beats();
         out["account"] = counted_json(model.account());
-        out["counters"] = counted_json(model.counters());
       });
   return out;
 }

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -35,7 +33,7 @@ struct Answer {
 class Session {
  public:
   /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "pixel" | "histogram" | "config", ...} with the keys
-  /// of lab/request.hpp, and of "frame": "counters" (all of them), "quick" (no SSIM); of "pixel": "x" and "y". Never
+  /// of lab/request.hpp, and of "frame": "quick" (no SSIM); of "pixel": "x" and "y". Never
   /// throws.
   Answer answer(const std::string& request);
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "base/each.hpp"
 #include "base/version.hpp"
 #include "driver/config/config_file.hpp"
 #include "scene/embedded.hpp"
@@ -14,13 +15,6 @@ namespace fastsplat::lab {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Functions>
-struct Each : Functions... {
-  using Functions::operator()...;
-};
-template <class... Functions>
-Each(Functions...) -> Each<Functions...>;
 
 Json kind_of(const scene::Setting& setting) {
   return std::visit(Each{[](const scene::Real& kind) {
@@ -83,10 +77,10 @@ Json keys_json() {
 
 Json tables() {
   Json out{{"version", program_version()}, {"settings", settings_json()}, {"keys", keys_json()}};
-  out["configs"] = driver::config_names();
+  out["configs"] = Json::array();
   for (const auto& name : driver::config_names()) {
     const cmodel::Config config = driver::load_config(name);
-    out["config_about"].push_back({{"name", name}, {"description", config.description}});
+    out["configs"].push_back({{"name", name}, {"description", config.description}});
   }
   out["volumes"] = Json::array();
   for (const auto& name : volume::synthetic_names())

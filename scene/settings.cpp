@@ -6,21 +6,13 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/each.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "base/suggest.hpp"
 
 namespace fastsplat::scene {
 namespace {
-
-/// Overloads for std::visit: calls the function for the setting's kind.
-template <class... Functions>
-struct Each : Functions... {
-  using Functions::operator()...;
-};
-// Clang before 17 does not deduce it by itself.
-template <class... Functions>
-Each(Functions...) -> Each<Functions...>;
 
 int position(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);

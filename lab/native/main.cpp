@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lab's engine as a native program, for tests: a request a line from stdin, an answer a line to stdout.
-#include <cstdio>
 #include <iostream>
 #include <string>
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# For scripts that need packages of npm; source it. They end with exit code 77, and the reason, where node or the registry is
+# For scripts that need packages of npm or a browser; source it. They end with exit code 77, and the reason, where node or the registry is
 # not to be had.
 
 skip() {
@@ -19,4 +19,13 @@ npm_into() {
   shift 2
   cp -- "$lists/package.json" "$folder"
   node "$(dirname -- "${BASH_SOURCE[0]}")/npm_files.mjs" "$lists/package-lock.json" "$folder" "$@" || exit
+}
+
+# need_chromium: sets CHROMIUM to a browser's path
+need_chromium() {
+  local name
+  for name in chromium chromium-headless-shell google-chrome; do
+    CHROMIUM=$(command -v "$name") && return
+  done
+  skip "no chromium (Debian: chromium)"
 }

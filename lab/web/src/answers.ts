@@ -29,8 +29,7 @@ export interface Tables {
   version: string;
   settings: Setting[];
   keys: Key[];
-  configs: string[];
-  config_about?: { name: string; description: string; verified?: string }[];
+  configs: { name: string; description: string }[];
   volumes: { name: string; size: number }[];
   presets: string[];
   kernels: string[];
@@ -61,8 +60,6 @@ export interface Config {
   /** Per technology: lut, ff, bram, dsp. Null if this device was not synthesised. */
   synthesis: Record<string, Record<string, number | string>> | null;
   toml?: string;
-  /** Without SSIM. */
-  quick?: boolean;
 }
 
 export interface Frame {
@@ -77,7 +74,6 @@ export interface Frame {
   /** As `fastsplat compare --json` has it. */
   compare?: Result;
   records?: number;
-  vectors?: string | null;
 }
 
 export interface Histogram {
@@ -89,8 +85,6 @@ export interface Histogram {
   dims: [number, number, number];
   /** The resolved transfer function as TOML, if the engine has it. */
   toml?: string;
-  /** Without SSIM. */
-  quick?: boolean;
 }
 
 export interface Value {

@@ -81,12 +81,12 @@ export class DevicePanel {
 
   show(lab: Lab): void {
     if (lab.toml) this.last_toml = lab.toml;
-    this.config.replaceChildren(...this.tables.configs.map((name) => h("option", { value: name }, name)), ...(this.last_toml ? [h("option", { value: "own" }, "from a file")] : []));
+    this.config.replaceChildren(...this.tables.configs.map(({ name }) => h("option", { value: name }, name)), ...(this.last_toml ? [h("option", { value: "own" }, "from a file")] : []));
     this.config.value = lab.toml ? "own" : lab.config;
     for (const [name, one] of this.controls) one.show(lab.changes[name] ?? null);
     const names = Object.keys(lab.changes);
     this.reset.hidden = names.length === 0;
-    const about = lab.toml ? undefined : this.tables.config_about?.find((each) => each.name === lab.config)?.description;
+    const about = lab.toml ? undefined : this.tables.configs.find((each) => each.name === lab.config)?.description;
     const from = lab.toml ? "the file" : lab.config;
     this.list.replaceChildren(
       ...(about ? [h("li", {}, about)] : []),

@@ -10,12 +10,8 @@ web="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)"
 source "$web/../../tools/helpers/npm.sh"
 
 need_node
-chromium=
 if [[ $what == browser ]]; then
-  for name in chromium chromium-headless-shell google-chrome; do
-    chromium=$(command -v "$name") && break
-  done
-  [[ -n $chromium ]] || skip "no chromium (Debian: chromium)"
+  need_chromium
   command -v oiiotool >/dev/null || skip "no oiiotool (Debian: openimageio-tools)"
 fi
 
@@ -42,7 +38,7 @@ case $what in
     echo "[figure] bytes rebuilt and equal = $(wc -c <"$folder/template.html") (limit > 0)"
     ;;
   browser)
-    export FASTSPLAT="$program" CHROMIUM="$chromium"
+    export FASTSPLAT="$program" CHROMIUM
     status=0
     for test in test/*.test.mjs; do node "$test" || status=1; done
     exit "$status"

@@ -29,7 +29,7 @@ function name_of(side: Result): string {
 }
 
 /** Explains the floor, and why a picture can be nearer to the reference than the floor. */
-export function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
+function floor(result: Result, show: ReturnType<typeof figures_of>): Child[] {
   if (!result.floor || typeof result.floor.psnr_db !== "number") return [];
   const better = typeof result.psnr_db === "number" && result.psnr_db > result.floor.psnr_db;
   return [

@@ -93,7 +93,7 @@ std::string command_line(const Json& request, const Request& read) {
   const scene::SceneDescription& d = read.scene;
   std::string line = fmt::format("fastsplat render --volume {}", shell_word(d.volume));
   if (!d.transfer_function.empty()) line += " --tf " + shell_word(d.transfer_function);
-  // A shape is told whole: the program would take the missing half from its default kernel.
+  // Both halves of a shape: the program would take a missing one from its default kernel.
   if (d.kernel.empty())
     line += fmt::format(" --kernel-a {} --kernel-radius {}", d.kernel_a, d.kernel_radius);
   else if (d.kernel != scene::SceneDescription{}.kernel)

@@ -51,5 +51,5 @@ target_include_directories(wasm_teem SYSTEM PUBLIC ${headers})
 target_compile_definitions(wasm_teem PRIVATE TEEM_DIO=0 TEEM_QNANHIBIT=1)
 
 # Clang 14 composites red and green behind a layer with the transmittance after it when it vectorises straight-line code.
-target_compile_options(fastsplat_settings INTERFACE -msimd128 -fno-slp-vectorize -fwasm-exceptions -include ${PROJECT_SOURCE_DIR}/lab/wasm/libcxx14.hpp)
+target_compile_options(fastsplat_settings INTERFACE -msimd128 -fno-slp-vectorize -fwasm-exceptions -include ${PROJECT_SOURCE_DIR}/lab/wasm/libcxx.hpp)
 target_link_options(fastsplat_settings INTERFACE -fwasm-exceptions)

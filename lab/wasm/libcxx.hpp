@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the C++ library of Debian 12's Emscripten lacks of C++20, as far as it is used here; empty for newer libraries.
+// What the C++ libraries of Emscripten lack of C++20, as far as it is used here: reading floating-point numbers (Debian
+// 12 and 13) and the algorithms of ranges (Debian 12).
 #pragma once
 
-#include <version>
-
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 15000
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -15,16 +14,6 @@
 #include <string>
 
 namespace std {
-
-template <typename To, typename From>
-constexpr To bit_cast(const From& from) noexcept {
-  return __builtin_bit_cast(To, from);
-}
-
-template <typename T>
-auto make_unique_for_overwrite(size_t count) {
-  return unique_ptr<T>(new remove_extent_t<T>[count]);
-}
 
 /// As the standard's, for text without blanks in front; the C library's locale is always "C" here.
 template <typename T>
@@ -44,6 +33,17 @@ requires is_floating_point_v<T> from_chars_result from_chars(const char* from, c
     return {stop, errc::result_out_of_range};
   value = narrow;
   return {stop, errc{}};
+}
+
+#if _LIBCPP_VERSION < 15000
+template <typename To, typename From>
+constexpr To bit_cast(const From& from) noexcept {
+  return __builtin_bit_cast(To, from);
+}
+
+template <typename T>
+auto make_unique_for_overwrite(size_t count) {
+  return unique_ptr<T>(new remove_extent_t<T>[count]);
 }
 
 namespace ranges {
@@ -103,5 +103,6 @@ constexpr auto find(R&& range, const T& value, Projection projection = {}) {
 }
 
 }  // namespace ranges
-}  // namespace std
 #endif
+
+}  // namespace std

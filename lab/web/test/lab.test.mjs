@@ -142,6 +142,27 @@ test("device keys: marked, listed, undone and done again, saved and read", async
   await page.finish();
 });
 
+test("while a slider moves pictures are small, at rest as large as asked for", async () => {
+  const page = await open({ hash: "#lab?volume=shells:32&config=base&size=256x200" });
+  await settled(page);
+  await reveal(page, "camera.azimuth");
+  const drawn = page.evaluate(
+    () =>
+      new Promise((done) => {
+        const root = document.documentElement, seen = [];
+        new MutationObserver(() => {
+          seen.push(`${root.dataset.size} ${root.dataset.draft}`);
+          if (root.dataset.settled === "true") done(seen);
+        }).observe(root, { attributeFilter: ["data-frames"] });
+        const slider = document.querySelector('.control[data-name="camera.azimuth"] input[type="range"]');
+        slider.value = String(Number(slider.value) + 20);
+        slider.dispatchEvent(new Event("input"));
+      }),
+  );
+  assert.deepEqual(await drawn, ["128x100 true", "256x200 false"]);
+  await page.finish();
+});
+
 test("of a burst of changes only the newest count", async () => {
   const page = await open({ hash: "#lab?volume=shells:64&config=base&size=256x256" });
   await settled(page);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, truncateSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { data, figure, median, metaimage, nifti, nrrd, open, place, psnr, rest, reveal, save, settled, shown_hash, start, stop, type } from "./lab_page.mjs";
+import { data, figure, median, metaimage, nifti, nrrd, open, place, psnr, rest, reveal, save, serious, settled, shown_hash, start, stop, type } from "./lab_page.mjs";
 
 before(start);
 after(stop);
@@ -403,7 +403,7 @@ test("turned by dragging and by keys", async () => {
 
 for (const theme of ["light", "dark"])
   for (const width of [390, 1280])
-    test(`${width} pixels, ${theme}: nothing sticks out, everything has a name`, async () => {
+    test(`${width} pixels, ${theme}: nothing sticks out, everything has a name, axe-core finds nothing serious`, async () => {
       const page = await open({ width, theme, hash: small, touch: width === 390 });
       for (const details of await page.$$("details")) await details.evaluate((element) => (element.open = true));
       await page.waitForSelector(".tf-point");
@@ -421,5 +421,12 @@ for (const theme of ["light", "dark"])
         return ids.filter((id, i) => ids.indexOf(id) !== i);
       });
       assert.deepEqual(twice, []);
+      const found = [];
+      for (const tab of ["scene", "device"]) {
+        await page.click(`#tab-${tab}`);
+        found.push(...(await serious(page)));
+      }
+      figure(`serious findings of axe-core, ${width} pixels, ${theme}`, found.length, "0");
+      assert.deepEqual(found, []);
       await page.finish();
     });

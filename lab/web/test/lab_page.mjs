@@ -3,7 +3,8 @@
 //   LAB        the page
 //   CHROMIUM   the browser
 import assert from "node:assert/strict";
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -85,6 +86,15 @@ export const reveal = (page, name) => page.evaluate((n) => {
   const details = control.closest("details");
   if (details) details.open = true;
 }, name);
+
+/** What axe-core finds serious or critical: a rule and an element each. */
+export async function serious(page) {
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
+  return page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+    return violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.target}`));
+  });
+}
 
 // --- volumes -----------------------------------------------------------------------------------------------------------
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "analysis/compare.hpp"
@@ -29,6 +30,7 @@
 #include "golden/render.hpp"
 #include "lab/tables.hpp"
 #include "scene/settings.hpp"
+#include "lab/termination.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::lab {
@@ -38,12 +40,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kFloatScale = 1 << 16;  ///< of golden's words, as in a report
 constexpr std::size_t kScenes = 4;             ///< kept at most
+constexpr std::uint64_t kPixelBytes = 16;      ///< four words
 constexpr std::int64_t kMostVoxels = 40'000'000;
 
-std::uint64_t hash_of(const cmodel::Frame& frame) {
+template <class Word>
+std::string hash_of(const std::vector<Word>& words) {
   std::uint64_t hash = kFnv1aStart;
-  for (const std::uint32_t word : frame.words) hash = fnv1a(hash, std::uint64_t{word});
-  return hash;
+  for (const Word word : words) hash = fnv1a(hash, std::uint64_t{static_cast<std::uint32_t>(word)});
+  return hash_text(hash);
 }
 
 Words words_of(const std::string& id, const Image& image) {
@@ -180,7 +184,7 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
     analysis::CompareOptions options;
     options.threads = 1;
     options.similarity = !json.value("quick", false);
-    out["words_hash"] = hash_text(hash_of(drawn.frame));
+    out["words_hash"] = hash_of(drawn.frame.words);
     out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(drawn.frame), options)));
     out["records"] = drawn.report.splat_records;
   } catch (const UserError& error) {
@@ -214,6 +218,8 @@ Json Session::cycles(const Json& json) {
         out["end"] = model.end_cycle();
         out["account"] = counted_json(model.account());
       });
+        out["bytes_in"] = model.sent_beats() * cmodel::kBeatBytes;
+        out["bytes_out"] = model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * kPixelBytes;
   return out;
 }
 
@@ -226,6 +232,29 @@ Json Session::errors(const Json& json, std::vector<Words>& pictures) {
 }
 
 Json Session::pixel(const Json& json) {
+/// The picture's words: the sheet's number plus 1, and 0 where a pixel never terminates.
+Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
+  const Request request = read_request(json);
+  const TerminationMap map = termination(kept(request.scene).scene, request.config);
+  Words picture{.id = "terminated", .width = map.width, .height = map.height, .channels = 1, .words = map.sheets};
+  std::optional<std::int32_t> first;
+  std::int32_t last = 0;
+  std::size_t count = 0;
+  for (std::int32_t& word : picture.words) {
+    if (word++ < 0) continue;
+    first = std::min(first.value_or(word), word), last = std::max(last, word);
+    ++count;
+  }
+  picture.scale = std::max(1, last);
+  Json out{{"pixels", count},
+           {"of", map.sheets.size()},
+           {"freeze_below", request.config.freeze_below},
+           {"map_hash", hash_of(picture.words)}};
+  if (first) out["first"] = *first - 1, out["last"] = last - 1;
+  pictures.push_back(std::move(picture));
+  return out;
+}
+
   const Request request = read_request(json);
   const stages::Chain chain(kept(request.scene).scene, request.config);
   return analysis::to_json(analysis::explain(chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), chain);
@@ -276,6 +305,8 @@ Answer Session::answer(const std::string& request) {
     else if (ask == "errors")
       out = errors(json, answer.pictures);
     else if (ask == "pixel")
+    else if (ask == "terminated")
+      out = terminated(json, answer.pictures);
       out = pixel(json);
     else if (ask == "histogram")
       out = histogram(json);

@@ -17,7 +17,7 @@ namespace fastsplat::lab {
 
 /// A picture of an answer: words as the report's viewer takes them, value = word / scale.
 struct Words {
-  std::string id;  ///< "golden", "device"
+  std::string id;  ///< "golden", "device", "blame", "terminated"
   int width = 0, height = 0, channels = 4;
   std::int64_t scale = 1;
   int int_bits = -1;  ///< of the device's format; -1: floats, rounded to the scale
@@ -32,7 +32,7 @@ struct Answer {
 /// Keeps volumes, scenes and golden pictures between requests, at most a few of each.
 class Session {
  public:
-  /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "pixel" | "histogram" | "config", ...} with the keys
+  /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config", ...} with the keys
   /// of lab/request.hpp, and of "frame": "quick" (no SSIM); of "pixel": "x" and "y". Never
   /// throws.
   Answer answer(const std::string& request);
@@ -52,6 +52,7 @@ class Session {
   nlohmann::ordered_json cycles(const nlohmann::ordered_json& json);
   nlohmann::ordered_json errors(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
   nlohmann::ordered_json pixel(const nlohmann::ordered_json& json);
+  nlohmann::ordered_json terminated(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
   nlohmann::ordered_json histogram(const nlohmann::ordered_json& json);
   nlohmann::ordered_json config(const nlohmann::ordered_json& json);
 

@@ -15,15 +15,10 @@ bool is(const Record* record) {
   return record != nullptr && std::holds_alternative<Kind>(*record);
 }
 
-std::uint64_t pixel_beats_of(const Config& config, const BeginTile& tile) {
-  return static_cast<std::uint64_t>((tile.width + config.lanes - 1) / config.lanes) *
-         static_cast<std::uint64_t>(tile.height);
-}
-
 }  // namespace
 
 CycleCluster::CycleCluster(const Config& config, StreamScope scope, const ClusterOptions& options)
-    : config_(config), decode_(config, scope), link_(options.bytes_per_cycle) {
+    : decode_(config, scope), link_(options.bytes_per_cycle) {
   for (int i = 0; i < options.devices; ++i)
     devices_.push_back(std::make_unique<QueuedDevice>(config, options.queue_beats, options.device));
   last_ = devices_.size() - 1;
@@ -32,7 +27,6 @@ CycleCluster::CycleCluster(const Config& config, StreamScope scope, const Cluste
 void CycleCluster::take(const Beat& beat) {
   const Record* record = decode_.feed(beat);
   const bool ends = is<EndTile>(record) || is<EndFrame>(record);
-  if (is<BeginTile>(record)) pixel_beats_ += pixel_beats_of(config_, std::get<BeginTile>(*record));
   tables_ = tables_ && !ends && !is<BeginTile>(record);
   if (tables_) return broadcast(beat);
   arriving_.push_back(beat);
@@ -112,6 +106,12 @@ std::uint64_t CycleCluster::frame_cycles() const {
   std::uint64_t end = 0;
   for (const DeviceCycles& device : done_) end = std::max(end, device.end);
   return end;
+}
+
+std::uint64_t CycleCluster::pixel_beats() const {
+  std::uint64_t beats = 0;
+  for (const DeviceCycles& device : done_) beats += device.pixel_beats;
+  return beats;
 }
 
 }  // namespace fastsplat::cmodel

@@ -43,7 +43,7 @@ class CycleCluster final : public Device {
   /// Beats the link carried; a broadcast one counts once.
   std::uint64_t beats_in() const { return link_.beats(); }
   /// Beats of pixels, P pixels each, of all devices.
-  std::uint64_t pixel_beats() const { return pixel_beats_; }
+  std::uint64_t pixel_beats() const;
 
  private:
   void take(const Beat& beat);
@@ -57,7 +57,6 @@ class CycleCluster final : public Device {
   /// The next cycle with a tile to deal or a beat to send; kNever without one.
   std::uint64_t wake() const;
 
-  Config config_;
   StreamDecode decode_;
   StreamLink link_;
   std::vector<std::unique_ptr<QueuedDevice>> devices_;
@@ -66,7 +65,6 @@ class CycleCluster final : public Device {
   bool ended_ = false;                     ///< the stream has ended
   std::vector<Beat> arriving_;             ///< beats of the open tile
   std::deque<std::vector<Beat>> undealt_;  ///< whole tiles, in stream order; finally end_frame
-  std::uint64_t pixel_beats_ = 0;
   Counters counters_;
   std::vector<DeviceCycles> done_;
 };

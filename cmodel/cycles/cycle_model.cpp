@@ -443,6 +443,7 @@ void CycleModel::end_tile(std::uint64_t at) {
 void CycleModel::picture(std::uint64_t at) {
   const int beats_per_row = (tile_.width + config_.lanes - 1) / config_.lanes;
   const auto beats = static_cast<std::uint64_t>(beats_per_row) * static_cast<std::uint64_t>(tile_.height);
+  pixel_beats_ += beats;
   std::uint64_t shown = at + stages::kPixel, left = 0, out = 0;  // offered by pixel out; taken of it; gone
   if (options_.output == nullptr && options_.taps == nullptr) {
     shown += beats;

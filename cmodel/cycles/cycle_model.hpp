@@ -120,6 +120,8 @@ class CycleModel final : public Device {
   std::uint64_t idle_cycles() const { return end_ - stalls_.busy; }
   /// Beats that the source sent: all but skipped ones of hidden cull groups.
   std::uint64_t sent_beats() const { return sent_; }
+  /// Beats of pixels, P pixels each.
+  std::uint64_t pixel_beats() const { return pixel_beats_; }
 
  private:
   struct Set {
@@ -213,6 +215,7 @@ class CycleModel final : public Device {
   std::uint64_t walk_free_ = 0;                 ///< earliest first pick of the next sheet
   std::uint64_t compositor_idle_ = 0;           ///< cycle from which it has nothing to do
   std::uint64_t picture_from_ = 0, picture_to_ = 0;
+  std::uint64_t pixel_beats_ = 0;
 
   // Of a tile of densities.
   struct DensitySheet {

@@ -61,7 +61,8 @@ DeviceCycles QueuedDevice::cycles() const {
           .account = model_.account(),
           .idle = model_.idle_cycles(),
           .end = model_.end_cycle(),
-          .longest_tile = longest_tile_};
+          .longest_tile = longest_tile_,
+          .pixel_beats = model_.pixel_beats()};
 }
 
 }  // namespace fastsplat::cmodel

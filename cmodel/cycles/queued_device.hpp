@@ -18,6 +18,7 @@ struct DeviceCycles {
   std::uint64_t idle = 0;          ///< before `end`, and not busy
   std::uint64_t end = 0;           ///< the first cycle from which it has nothing to do
   std::uint64_t longest_tile = 0;  ///< cycles from begin_tile carried out to the last pixel taken
+  std::uint64_t pixel_beats = 0;
 };
 
 /// Arrivals must come in the order of the beats and never decrease.

@@ -81,6 +81,7 @@ class Compared {
     b.account().for_each([&](const char* name, std::uint64_t value, const char*) { same(values[i++], value, name); });
     same(a.idle, b.idle_cycles(), "idle");
     same(a.end, b.end_cycle(), "end");
+    same(a.pixel_beats, b.pixel_beats(), "beats of pixels");
     EXPECT_EQ(a.counters, b.counters());
   }
   void figure(const std::string& what, std::uint64_t limit) const {

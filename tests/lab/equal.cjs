@@ -41,6 +41,7 @@ function requests(tables) {
   for (const settings of [turned, perspective]) {
     out.push({ ask: "errors", volume: "shells:40", settings, config: "base" });
     out.push({ ask: "pixel", volume: "shells:40", settings, config: "tiny", x: 20, y: 18 });
+    for (const config of ["base", "tiny"]) out.push({ ask: "terminated", volume: "shells:40", settings: { ...settings, opacity_scale: "9" }, config });
   }
   for (const { name: config } of tables.configs) out.push({ ask: "config", config });
   out.push({ ask: "frame", config: "none" }, { ask: "frame", volume: "shells:9999" }, { ask: "frame", settings: { "camera.azimuth": "x" } }, { ask: "nothing" });

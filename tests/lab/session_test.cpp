@@ -9,11 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/compare.hpp"
+#include "analysis/errors/pixel_report.hpp"
+#include "analysis/pipeline/chain.hpp"
 #include "base/fnv1a.hpp"
 #include "base/hash_text.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "driver/config/changed.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/settings.hpp"
@@ -186,6 +189,45 @@ TEST(LabSession, TheTransferFunctionAsAFileGivesTheSameWords) {
   std::printf("[figure] presets equal as files = %zu (limit 4)\n", equal);
 }
 
+/// A pixel's trace, which the chain makes without the device model, ends in the sheet that terminates the pixel.
+TEST(LabSession, TerminatedPixelsEndWhereTheirTracesDo) {
+  lab::Session session;
+  std::size_t compared = 0, terminated = 0;
+  for (const char* changes : {"composite.freeze_below=200", "tile.width=16"}) {
+    Json asked = request("terminated", {{"image.width", "20"}, {"image.height", "17"}, {"opacity_scale", "9"}}, "tiny");
+    asked["changes"] = {changes};
+    const lab::Answer answer = session.answer(asked.dump());
+    const Json json = Json::parse(answer.json);
+    ASSERT_FALSE(json.contains("error")) << json["error"];
+    ASSERT_EQ(answer.pictures.size(), 1U);
+    scene::SceneDescription description;
+    description.volume = "shells:24";
+    description.width = 20, description.height = 17;
+    description.opacity_scale = 9.0;
+    const scene::Scene scene = scene::build_scene(description);
+    const std::vector<std::string> list{changes};
+    const cmodel::Config config = driver::changed(driver::load_config("tiny"), list);
+    const stages::Chain chain(scene, config);
+    std::size_t here = 0;
+    for (int y = 0; y < 17; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        const auto trace = analysis::explain(chain, x, y, 1).device;
+        const int wanted = trace.terminated ? trace.sheets.back().sheet + 1 : 0;
+        EXPECT_EQ(answer.pictures[0].words[static_cast<std::size_t>(y * 20 + x)], wanted) << x << "," << y;
+        ++compared;
+        here += wanted > 0 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(json["pixels"], here);
+    EXPECT_EQ(json["last"].get<int>() + 1, answer.pictures[0].scale);
+    terminated += here;
+  }
+  std::printf("[figure] pixels compared = %zu, terminated = %zu (limit >= 40)\n", compared, terminated);
+  EXPECT_GE(terminated, 40U);
+  const Json xray = Json::parse(session.answer(request("terminated", with(kSmall, "method", "xray")).dump()).json);
+  EXPECT_EQ(xray["pixels"], 0) << xray;
+}
+
 TEST(LabSession, CyclesCostsAndHistogramAddUp) {
   lab::Session session;
   const Json cycles = Json::parse(session.answer(request("cycles").dump()).json);
@@ -193,6 +235,16 @@ TEST(LabSession, CyclesCostsAndHistogramAddUp) {
   for (const auto& [name, count] : cycles["account"].items()) sum += count.get<std::uint64_t>();
   EXPECT_EQ(sum, cycles["actual"].get<std::uint64_t>());
   EXPECT_GT(sum, 0U);
+  scene::SceneDescription description;
+  description.volume = "shells:24";
+  description.width = 40, description.height = 32;
+  const auto base = driver::load_config("base");
+  const scene::Scene scene = scene::build_scene(description);
+  const driver::CompiledFrame compiled(scene, base);
+  std::uint64_t bytes = 0;
+  compiled.emit([&](std::span<const cmodel::Beat> beats) { bytes += beats.size_bytes(); });
+  EXPECT_EQ(cycles["bytes_in"], bytes);
+  EXPECT_EQ(cycles["bytes_out"], 40 * 32 * 16);
   const Json histogram = Json::parse(session.answer(request("histogram").dump()).json);
   std::uint64_t voxels = 0;
   for (const auto& count : histogram["bins"]) voxels += count.get<std::uint64_t>();

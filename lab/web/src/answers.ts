@@ -107,7 +107,7 @@ export interface Story {
 }
 
 export interface Request {
-  ask: "tables" | "frame" | "cycles" | "errors" | "pixel" | "histogram" | "config";
+  ask: "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config";
   volume?: string;
   tf?: string;
   kernel?: string;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which step errs: each step's part of the error, by a button since it draws many frames. Its map goes to the viewer.
-import { clear, h } from "../../../report/web/src/dom";
+import { h } from "../../../report/web/src/dom";
 import { number_text } from "../../../report/web/src/figures";
 import type { Result } from "../../../report/web/src/page";
 import { table } from "../../../report/web/src/table";
+import { Asked } from "./asked";
 
 interface Step {
   name: string;
@@ -15,37 +16,15 @@ interface Step {
   pixels_ruled: number;
 }
 
-export class BlamePart {
-  readonly root: HTMLElement;
-  private readonly body = h("div");
-  private readonly button: HTMLButtonElement;
-
+export class BlamePart extends Asked {
   constructor(ask: () => void) {
-    this.button = h("button", { type: "button", id: "ask-errors", click: ask }, "Which step errs?");
-    this.root = h("section", { class: "box", id: "errors", "aria-labelledby": "errors-title" }, h("h2", { id: "errors-title" }, "Error by step"), this.button, this.body);
-    this.stale();
+    super("errors", "Error by step", "Which step errs?", "Replaces the steps of the computation by real arithmetic, one after the other, and maps which of them errs most in every pixel.", ask);
   }
 
-  stale(): void {
-    this.button.disabled = false;
-    this.body.replaceChildren(h("p", { class: "note" }, "Replaces the steps of the computation by real arithmetic, one after the other, and maps which of them errs most in every pixel."));
-  }
-
-  wait(): void {
-    this.button.disabled = true;
-  }
-
-  fail(message: string): void {
-    this.button.disabled = false;
-    this.body.replaceChildren(h("p", { class: "wrong-line", role: "alert" }, message));
-  }
-
-  show(errors: Result): void {
-    this.button.disabled = false;
-    clear(this.body);
+  protected fill(body: HTMLElement, errors: Result): void {
     const steps = [...(errors.steps as Step[])].sort((a, b) => b.share - a.share);
-    this.body.append(h("p", {}, `The device's steps cause ${number_text(100 * errors.device_share, { digits: 1 })} % of the squared error, the driver's ${number_text(100 * errors.driver_share, { digits: 1 })} %.`));
-    table(this.body, {
+    body.append(h("p", {}, `The device's steps cause ${number_text(100 * errors.device_share, { digits: 1 })} % of the squared error, the driver's ${number_text(100 * errors.driver_share, { digits: 1 })} %.`));
+    table(body, {
       label: "Error by step",
       rows: steps,
       columns: [

@@ -9,7 +9,8 @@ export interface Cycles {
   actual: number;
   idle: number;
   end: number;
-  beats: number;
+  bytes_in: number;
+  bytes_out: number;
   account: Record<string, number>;
 }
 
@@ -88,6 +89,7 @@ export class CyclesPart {
         ["From first to last", number_text(cycles.end)],
         [`Frames a second at ${number_text(mhz)} MHz`, h("span", { id: "fps" }, number_text(fps))],
         ["Milliseconds a frame", number_text(1000 / fps)],
+        ["Bytes a frame", h("span", { id: "bytes" }, number_text(cycles.bytes_in + cycles.bytes_out)), h("small", {}, ` stream ${number_text(cycles.bytes_in)}, pixels ${number_text(cycles.bytes_out)}`)],
       ),
     );
   }

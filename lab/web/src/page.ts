@@ -68,7 +68,7 @@ export class Page {
       },
     });
     this.slowly = new SlowWork(tables, slow, this.store, (lab) => this.shelf.prepare(lab), {
-      blame: (pictures) => this.panes.show_blame(pictures),
+      map: (picture) => this.panes.show_map(picture),
       cycles: (lab, hash, actual) => this.tried.add_cycles(lab, hash, actual),
     });
     this.scene = new ScenePanel(tables, this.store, () => this.slowly.edit_tf(), this.open);
@@ -108,6 +108,7 @@ export class Page {
         h("div", { class: "pair" }, this.slowly.cycles.root, this.tried.root),
         this.slowly.story.root,
         this.slowly.tf.root,
+        this.slowly.terminated.root,
         this.slowly.blame.root,
         h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
       ),

@@ -8,14 +8,17 @@ import type { Address } from "../../../report/web/src/viewer/state";
 import { Viewer, type Tour } from "../../../report/web/src/viewer/viewer";
 import { Scene } from "../../../report/web/src/viewer/views";
 import type { Answer, Frame } from "./answers";
+import { drawn_sheets } from "./terminated";
 
 type Pictures = Answer["pictures"];
 
-const titles: Record<string, string> = { golden: "Golden", device: "Device", blame: "Blame map" };
+const titles: Record<string, string> = { golden: "Golden", device: "Device", blame: "Blame map", terminated: "Terminated pixels" };
+/** Maps for display: no words of a frame. */
+const maps = new Set(["blame", "terminated"]);
 
-function plane({ head, words }: Pictures[0]): Plane {
+function plane(from: Pictures[0]): Plane {
+  const { head, words, note } = from.head.id === "terminated" ? drawn_sheets(from) : { ...from, note: undefined };
   const bits = Math.log2(head.scale);
-  const display = head.id === "blame";
   const picture: Picture = {
     id: head.id,
     role: head.id,
@@ -28,7 +31,8 @@ function plane({ head, words }: Pictures[0]): Plane {
     frac_bits: Number.isInteger(bits) ? bits : null,
     int_bits: head.int_bits < 0 ? null : head.int_bits,
     exact: head.int_bits >= 0,
-    display,
+    display: maps.has(head.id),
+    note,
     sha256: "",
     from: "",
   };
@@ -56,7 +60,7 @@ export class Panes {
   private viewer: Viewer | null = null;
   private frame: Frame | null = null;
   private pictures: Pictures = [];
-  private blame: Pictures = [];
+  private maps: Pictures = [];
 
   constructor(private readonly address: Address) {}
 
@@ -68,19 +72,19 @@ export class Panes {
   show(frame: Frame, pictures: Pictures): void {
     this.frame = frame;
     this.pictures = pictures;
-    this.blame = [];
+    this.maps = [];
     this.draw();
   }
 
-  /** Adds the blame map to the frame. */
-  show_blame(pictures: Pictures): void {
-    this.blame = pictures;
+  /** Adds a map to the frame. */
+  show_map(picture: Pictures[0]): void {
+    this.maps = [...this.maps.filter(({ head }) => head.id !== picture.head.id), picture];
     this.draw();
-    this.viewer?.present("blame");
+    this.viewer?.present(picture.head.id);
   }
 
   private draw(): void {
-    const scenes = [{ name: "", scene: new Scene([...this.pictures, ...this.blame].map(plane)) }];
+    const scenes = [{ name: "", scene: new Scene([...this.pictures, ...this.maps].map(plane)) }];
     if (this.viewer) this.viewer.replace(scenes);
     else this.viewer = new Viewer(this.root, scenes, () => tour_of(this.frame as Frame), this.address);
   }

@@ -52,7 +52,7 @@ export class PixelStory {
       h(
         "p",
         { id: "pixel-lead", "data-pixel": `${story.x},${story.y}` },
-        `Pixel (${story.x}, ${story.y}): ${story.splats.length} splats in ${story.sheets.length} sheets${story.terminated ? "; it is terminated early" : ""}. `,
+        `Pixel (${story.x}, ${story.y}): ${story.splats.length} splats in ${story.sheets.length} sheets${story.terminated ? `; it terminates early, in sheet ${story.sheets.at(-1)?.sheet}` : ""}. `,
         `The error is ${names.map((name, i) => `${name} ${number_text(story.error_lsb8[i], { digits: 3, sign: true })}`).join(", ")} LSB of 8 bits.`,
       ),
       h("h3", {}, "Each step's part of the error"),

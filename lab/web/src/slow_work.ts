@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes longer than a picture, on a worker of its own so that sliders stay quick: cycles, error by step, a pixel's
-// story, the volume's histogram.
+// What takes longer than a picture, on a worker of its own so that sliders stay quick: cycles, error by step, terminated
+// pixels, a pixel's story, the volume's histogram.
 import type { Result } from "../../../report/web/src/page";
 import type { Answer, Histogram, Request, Story, Tables } from "./answers";
+import type { Asked } from "./asked";
 import { BlamePart } from "./blame";
 import { CyclesPart, type Cycles } from "./cycles";
 import type { Shown } from "./drawer";
@@ -11,21 +12,23 @@ import { save } from "./files";
 import type { Lab, Store } from "./lab_state";
 import { PixelStory } from "./pixel_story";
 import { request_of, tf_key } from "./requests";
+import { TerminatedPart } from "./terminated";
 import { TfEditor } from "./tf_editor";
 
 /** Time at rest before anything is asked for. */
 const rest_ms = 400;
 
 export interface Found {
-  /** The blame map. */
-  blame(pictures: Answer["pictures"]): void;
+  /** A map of the frame: of the steps that err, or of terminated pixels. */
+  map(picture: Answer["pictures"][0]): void;
   /** Cycles of a state's configuration. */
   cycles(lab: Lab, hash: string, actual: number): void;
 }
 
 export class SlowWork {
   readonly cycles = new CyclesPart();
-  readonly blame = new BlamePart(() => void this.ask_errors());
+  readonly blame: Asked = new BlamePart(() => void this.ask_map("errors", this.blame));
+  readonly terminated: Asked = new TerminatedPart(() => void this.ask_map("terminated", this.terminated));
   readonly story = new PixelStory(() => void this.ask_pixel());
   readonly tf: TfEditor;
   private at: { x: number; y: number } | null = null;
@@ -55,13 +58,14 @@ export class SlowWork {
   /** After a change of the state: what runs is of no use any more. */
   changed(): void {
     clearTimeout(this.timer);
-    if (this.slow.busy_with?.ask === "errors") this.slow.cancel();
+    if (["errors", "terminated"].includes(this.slow.busy_with?.ask ?? "")) this.slow.cancel();
   }
 
   /** After a frame. */
   show(shown: Shown): void {
     this.shown = shown;
     this.blame.stale();
+    this.terminated.stale();
     clearTimeout(this.timer);
     if (shown.draft) return;
     this.cycles.wait();
@@ -101,18 +105,18 @@ export class SlowWork {
     }
   }
 
-  private async ask_errors(): Promise<void> {
+  private async ask_map(ask: "errors" | "terminated", part: Asked): Promise<void> {
     const lab = this.store.now;
-    this.blame.wait();
+    part.wait();
     try {
-      const answer = await this.slowly<Result>("errors", lab);
+      const answer = await this.slowly<Result>(ask, lab);
       if (!answer) return;
-      if (lab !== this.store.now) return this.blame.stale();
-      this.blame.show(answer.json);
-      this.found.blame(answer.pictures);
+      if (lab !== this.store.now) return part.stale();
+      part.show(answer.json);
+      this.found.map(answer.pictures[0]);
     } catch (error) {
-      if (error instanceof Dropped) this.blame.stale();
-      else this.blame.fail((error as Error).message);
+      if (error instanceof Dropped) part.stale();
+      else part.fail((error as Error).message);
     }
   }
 

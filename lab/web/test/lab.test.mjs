@@ -296,7 +296,7 @@ test("long work can be cancelled", async () => {
 });
 
 test("the pixel's story, the error by step, and the configurations tried", async () => {
-  const page = await open({ hash: "#lab?volume=shells:32&config=base&size=64x64" });
+  const page = await open({ hash: "#lab?volume=shells:32&config=base&size=64x64&s.opacity_scale=9" });
   await page.locator('canvas[data-view="device"]').click({ position: { x: 150, y: 130 } });
   await page.click("#pixel summary");
   await page.waitForSelector("#pixel-lead", { timeout: 60_000 });
@@ -317,6 +317,13 @@ test("the pixel's story, the error by step, and the configurations tried", async
   await page.click("#ask-errors");
   await page.waitForSelector("#errors table", { timeout: 120_000 });
   assert.ok(await page.$('canvas[data-view="blame"]'));
+  // Which pixels terminate: the map says the same as the story and the figure.
+  await page.click("#ask-terminated");
+  await page.waitForSelector("#terminated-pixels", { timeout: 60_000 });
+  await page.waitForSelector('canvas[data-view="terminated"]');
+  assert.ok(await page.$('canvas[data-view="blame"]'), "both maps are shown");
+  assert.match(await page.textContent("#terminated-pixels"), /of 4.096 pixels terminate early/);
+  assert.match(await page.textContent('[data-note="terminated"]'), /^Yellow: sheet \d+, the first\. Violet: sheet \d+, the last/);
   // Trials, and back.
   const first = await shown_hash(page);
   await page.click("#tab-device");
@@ -324,6 +331,7 @@ test("the pixel's story, the error by step, and the configurations tried", async
   await rest(page, () => page.selectOption("#config", "compact"));
   assert.equal((await page.$$("#tried tbody tr")).length, 3);
   await page.waitForFunction(() => /\d/.test(document.getElementById("cycles-actual")?.textContent ?? ""), null, { timeout: 60_000 });
+  assert.match(await page.textContent("#bytes"), /\d/);
   await rest(page, () => page.locator("#tried tbody tr", { hasText: "base" }).click());
   assert.equal(await shown_hash(page), first);
   await page.finish();

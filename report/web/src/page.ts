@@ -36,6 +36,8 @@ export interface Picture {
   /** The picture whose block holds the words, if not its own. */
   same_as?: string;
   nonfinite?: number;
+  /** Text below the picture. */
+  note?: string;
   /** Set if it is a window of a larger picture. */
   crop?: { x: number; y: number; full_width: number; full_height: number };
   volume?: string;

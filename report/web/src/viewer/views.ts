@@ -91,15 +91,15 @@ export class Scene {
     const saturation = key.startsWith("saturation-");
     const plane = this.plane(saturation ? key.slice("saturation-".length) : key);
     if (!plane) return null;
-    const { title, width, height } = plane.picture;
+    const { title, width, height, note } = plane.picture;
     const place = { key, x0: plane.x0, y0: plane.y0, factor: 1, rows: this.height };
     if (saturation) {
       const { canvas, colours, opaque } = drawn_saturation(plane);
-      const note = `Orange: ${colours} pixels with a colour at the last word, ${plane.top_word}. Blue: ${opaque} opaque ones.`;
-      return { ...place, title: `Saturation: ${title}`, image: canvas, note };
+      const counts = `Orange: ${colours} pixels with a colour at the last word, ${plane.top_word}. Blue: ${opaque} opaque ones.`;
+      return { ...place, title: `Saturation: ${title}`, image: canvas, note: counts };
     }
     // Display maps may have another size: they are as wide as the frame and have a legend below.
     const factor = plane.picture.display ? width / this.width : 1;
-    return { ...place, title, factor, rows: plane.picture.display ? this.height : height, image: plane.drawn(channel) };
+    return { ...place, title, factor, rows: plane.picture.display ? this.height : height, image: plane.drawn(channel), note };
   }
 }

@@ -12,7 +12,6 @@
 #include "driver/config/changed.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/config/config_text.hpp"
-#include "scene/settings.hpp"
 
 namespace fastsplat::lab {
 namespace {
@@ -36,6 +35,11 @@ const scene::Setting& setting_named(const std::string& name) {
 bool is_idle(const Request& read, const std::string& name) {
   return std::ranges::any_of(read.idle, [&](const Idle& one) { return one.setting == name; });
 }
+
+constexpr std::string_view kFiles = "/files/";
+
+/// A name as the command has it.
+std::string outside(const std::string& path) { return path.starts_with(kFiles) ? path.substr(kFiles.size()) : path; }
 
 bool shapes_kernel(const std::string& setting) { return setting == "kernel.a" || setting == "kernel.radius"; }
 
@@ -89,10 +93,18 @@ Request read_request(const Json& json) {
   return out;
 }
 
+std::string flag_text(const scene::Setting& setting, const scene::SceneDescription& description) {
+  std::string text = scene::value_as_toml(setting, description);
+  if (std::holds_alternative<scene::Switch>(setting.value)) return text == "true" ? "on" : "off";
+  std::erase_if(text, [](char c) { return c == '"' || c == '[' || c == ']' || c == ' '; });
+  return text;
+}
+
 std::string command_line(const Json& request, const Request& read) {
   const scene::SceneDescription& d = read.scene;
-  std::string line = fmt::format("fastsplat render --volume {}", shell_word(d.volume));
-  if (!d.transfer_function.empty()) line += " --tf " + shell_word(d.transfer_function);
+  std::string line = fmt::format("fastsplat render --volume {}", shell_word(outside(d.volume)));
+  const bool own = d.transfer_function.starts_with(kFiles);
+  if (!d.transfer_function.empty()) line += " --tf " + (own ? "tf.toml" : shell_word(d.transfer_function));
   // Both halves of a shape: the program would take a missing one from its default kernel.
   if (d.kernel.empty())
     line += fmt::format(" --kernel-a {} --kernel-radius {}", d.kernel_a, d.kernel_radius);

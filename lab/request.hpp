@@ -9,6 +9,7 @@
 #include "cmodel/numbers/config.hpp"
 #include "scene/capability.hpp"
 #include "scene/scene.hpp"
+#include "scene/settings.hpp"
 
 namespace fastsplat::lab {
 
@@ -30,7 +31,11 @@ struct Request {
 /// Throws UserError about the first invalid value.
 Request read_request(const nlohmann::ordered_json& json);
 
-/// `fastsplat render` with the flags that draw the same words; mine.toml stands for a configuration given as "toml".
+/// A setting's value as its flag takes it.
+std::string flag_text(const scene::Setting& setting, const scene::SceneDescription& description);
+
+/// `fastsplat render` with the flags that draw the same words. Files of the page, in "/files", lose their folder;
+/// tf.toml and mine.toml stand for a transfer function and a configuration of its own.
 std::string command_line(const nlohmann::ordered_json& request, const Request& read);
 
 }  // namespace fastsplat::lab

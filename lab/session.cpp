@@ -28,9 +28,10 @@
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/run_device.hpp"
 #include "golden/render.hpp"
+#include "lab/link.hpp"
 #include "lab/tables.hpp"
-#include "scene/settings.hpp"
 #include "lab/termination.hpp"
+#include "scene/settings.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::lab {
@@ -39,8 +40,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kFloatScale = 1 << 16;  ///< of golden's words, as in a report
-constexpr std::size_t kScenes = 4;             ///< kept at most
 constexpr std::uint64_t kPixelBytes = 16;      ///< four words
+constexpr std::size_t kScenes = 4;             ///< kept at most
 constexpr std::int64_t kMostVoxels = 40'000'000;
 
 template <class Word>
@@ -217,9 +218,9 @@ Json Session::cycles(const Json& json) {
         out["idle"] = model.idle_cycles();
         out["end"] = model.end_cycle();
         out["account"] = counted_json(model.account());
-      });
         out["bytes_in"] = model.sent_beats() * cmodel::kBeatBytes;
         out["bytes_out"] = model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * kPixelBytes;
+      });
   return out;
 }
 
@@ -231,7 +232,6 @@ Json Session::errors(const Json& json, std::vector<Words>& pictures) {
   return analysis::to_json(attribution, std::nullopt);
 }
 
-Json Session::pixel(const Json& json) {
 /// The picture's words: the sheet's number plus 1, and 0 where a pixel never terminates.
 Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
   const Request request = read_request(json);
@@ -255,6 +255,7 @@ Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
   return out;
 }
 
+Json Session::pixel(const Json& json) {
   const Request request = read_request(json);
   const stages::Chain chain(kept(request.scene).scene, request.config);
   return analysis::to_json(analysis::explain(chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), chain);
@@ -304,14 +305,16 @@ Answer Session::answer(const std::string& request) {
       out = cycles(json);
     else if (ask == "errors")
       out = errors(json, answer.pictures);
-    else if (ask == "pixel")
     else if (ask == "terminated")
       out = terminated(json, answer.pictures);
+    else if (ask == "pixel")
       out = pixel(json);
     else if (ask == "histogram")
       out = histogram(json);
     else if (ask == "config")
       out = config(json);
+    else if (ask == "link")
+      out = state_of_link(json.at("link").get<std::string>());
     else
       throw_usage({.where = "ask", .what = "unknown request", .expected = {}, .got = ask, .fix = {}});
   } catch (const UserError& error) {

@@ -32,8 +32,9 @@ struct Answer {
 /// Keeps volumes, scenes and golden pictures between requests, at most a few of each.
 class Session {
  public:
-  /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config", ...} with the keys
-  /// of lab/request.hpp, and of "frame": "quick" (no SSIM); of "pixel": "x" and "y". Never
+  /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config" |
+  /// "link", ...} with the keys of lab/request.hpp, and of "frame": "quick" (no SSIM); of "pixel": "x" and "y"; of
+  /// "link": "link" (lab/link.hpp). Never
   /// throws.
   Answer answer(const std::string& request);
 
@@ -51,8 +52,8 @@ class Session {
   nlohmann::ordered_json frame(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
   nlohmann::ordered_json cycles(const nlohmann::ordered_json& json);
   nlohmann::ordered_json errors(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
-  nlohmann::ordered_json pixel(const nlohmann::ordered_json& json);
   nlohmann::ordered_json terminated(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
+  nlohmann::ordered_json pixel(const nlohmann::ordered_json& json);
   nlohmann::ordered_json histogram(const nlohmann::ordered_json& json);
   nlohmann::ordered_json config(const nlohmann::ordered_json& json);
 

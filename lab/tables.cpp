@@ -7,6 +7,7 @@
 #include "base/each.hpp"
 #include "base/version.hpp"
 #include "driver/config/config_file.hpp"
+#include "lab/request.hpp"
 #include "scene/embedded.hpp"
 #include "scene/settings.hpp"
 #include "scene/volume/synthetic.hpp"
@@ -38,19 +39,11 @@ Json kind_of(const scene::Setting& setting) {
                     setting.value);
 }
 
-/// The default as a flag's text.
-std::string default_of(const scene::Setting& setting) {
-  std::string text = scene::value_as_toml(setting, scene::SceneDescription{});
-  if (std::holds_alternative<scene::Switch>(setting.value)) return text == "true" ? "on" : "off";
-  std::erase_if(text, [](char c) { return c == '"' || c == '[' || c == ']' || c == ' '; });
-  return text;
-}
-
 Json settings_json() {
   Json out = Json::array();
   for (const scene::Setting& setting : scene::settings()) {
     Json one{{"name", scene::dotted(setting)}, {"flag", setting.flag}, {"group", setting.group},
-             {"unit", setting.unit},           {"help", setting.help}, {"default", default_of(setting)}};
+             {"unit", setting.unit},           {"help", setting.help}, {"default", flag_text(setting, {})}};
     one.update(kind_of(setting));
     out.push_back(one);
   }

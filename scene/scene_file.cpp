@@ -100,12 +100,12 @@ std::vector<std::string> demo_names() {
   return names;
 }
 
-SceneFile read_scene_file(const fs::path& path) {
+namespace {
+
+SceneFile read_scene(TomlTable root, const fs::path& folder) {
   SceneFile all;
   SceneDescription& d = all.description;
   std::vector<Given> given;
-  TomlTable root = open_scene(path);
-  const fs::path folder = path.parent_path();
   if (const auto text = root.text("volume")) {
     if (text->empty())
       root.refuse("volume", "empty", "a volume's path or name", {}, "for example volume = \"shells:64\"");
@@ -138,6 +138,14 @@ SceneFile read_scene_file(const fs::path& path) {
   all.idle = idle_of(given, d);
   if (all.sequence) all.idle = idle_of(all.idle, *all.sequence, d);
   return all;
+}
+
+}  // namespace
+
+SceneFile read_scene_file(const fs::path& path) { return read_scene(open_scene(path), path.parent_path()); }
+
+SceneFile parse_scene(const std::string& text, const std::string& source) {
+  return read_scene(TomlTable::parse(text, source, TomlKind::Scene), {});
 }
 
 SceneDescription load_scene_file(const fs::path& path) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/capability.hpp"
@@ -21,5 +22,7 @@ struct SceneFile {
 
 /// Like load_scene_file, but the caller handles settings without effect.
 SceneFile read_scene_file(const std::filesystem::path& path);
+/// The content of a scene's file; `source` names it in messages. Relative paths stay relative to the current folder.
+SceneFile parse_scene(const std::string& text, const std::string& source);
 
 }  // namespace fastsplat::scene

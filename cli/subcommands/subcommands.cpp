@@ -38,6 +38,7 @@ const std::vector<Subcommand>& all_subcommands() {
       subcommands::plan_pareto,
       subcommands::plan_csv,
       subcommands::report,
+      subcommands::lab,
       subcommands::doctor,
       subcommands::completion,
       subcommands::help,

@@ -66,7 +66,7 @@ const Arrows kDrawn{
     {"lab", {"driver/config", "analysis/errors"}},
     {"cli",
      {"golden", "driver/config", "driver/files", "testbench/triage", "testbench/closure", "testbench/faults",
-      "analysis/errors", "analysis/index_kinds", "analysis/sweep", "report/formats"}},
+      "analysis/index_kinds", "analysis/sweep", "report/formats", "lab"}},
     {"docs/examples", {"base/images", "driver/config", "driver/files", "testbench/device"}},
 };
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command that the lab shows draws the words that the lab shows: for every setting and for changed devices.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/images/image_file.hpp"
+#include "lab/link.hpp"
 #include "lab/session.hpp"
 #include "scene/settings.hpp"
 #include "tests/process/process_helper.hpp"
@@ -24,24 +25,31 @@ class LabCommand : public testing::Test {
     const lab::Answer answer = session_.answer(request.dump());
     const Json json = Json::parse(answer.json);
     if (!json.contains("words_hash")) return false;
-    const auto file = std::filesystem::path(testing::TempDir()) / "lab-command.exr";
-    auto line = json["command"].get<std::string>();
-    const std::string out = " --out device.exr", name = "fastsplat ";
-    EXPECT_TRUE(line.starts_with(name) && line.ends_with(out)) << line;
-    line = line.substr(name.size(), line.size() - name.size() - out.size()) + " -o '" + file.string() + "' --quiet";
-    const auto run = cli_test::run_words({"sh", "-c", "exec '" + cli_test::program() + "' " + line});
-    EXPECT_EQ(run.code, 0) << line << "\n" << run.err;
-    if (run.code != 0) return true;
-    const Image image = images::read_image(file).image;
-    const lab::Words& words = answer.pictures.at(1);
-    EXPECT_EQ(image.data.size(), words.words.size()) << line;
-    std::size_t differ = 0;
-    for (std::size_t i = 0; i < std::min(image.data.size(), words.words.size()); ++i)
-      differ += std::ldexp(image.data[i], std::countr_zero(static_cast<std::uint64_t>(words.scale))) != words.words[i];
-    EXPECT_EQ(differ, 0U) << line;
+    expect_words(json["command"], answer.pictures.at(1));
     return true;
   }
 
+  void expect_words(std::string line, const lab::Words& words) {
+    const std::string out = " --out device.exr", name = "fastsplat ";
+    ASSERT_TRUE(line.starts_with(name) && line.ends_with(out)) << line;
+    line = "exec '" + cli_test::program() + "' " + line.substr(name.size()) + " --quiet";
+    const auto run = cli_test::run_words({"sh", "-c", line}, here());
+    ASSERT_EQ(run.code, 0) << line << "\n" << run.err;
+    const Image image = images::read_image(folder_ / "device.exr").image;
+    ASSERT_EQ(image.data.size(), words.words.size()) << line;
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+      differ += std::ldexp(image.data[i], std::countr_zero(static_cast<std::uint64_t>(words.scale))) != words.words[i];
+    EXPECT_EQ(differ, 0U) << line;
+  }
+
+  cli_test::Surroundings here() const {
+    cli_test::Surroundings surroundings;
+    surroundings.folder = folder_.path();
+    return surroundings;
+  }
+
+  cli_test::TempFolder folder_;
   lab::Session session_;
 };
 
@@ -91,6 +99,57 @@ TEST_F(LabCommand, DrawsTheSameForKernelsAndChangedDevices) {
   request["tf"] = "linear";
   request["changes"] = {"radial.entries=64", "pixel.frac_bits=9"};
   EXPECT_TRUE(drawn_alike(request));
+}
+
+// A link in the forms that a user has: the whole address, its part from # on, a report's with a scene.toml.
+TEST_F(LabCommand, OfALinkIsThePages) {
+  const std::vector<std::string> links{
+      "#lab?volume=shells:24&config=base&size=40x32",
+      "file:///home/me/lab.html#lab?volume=shells%3A24&config=tiny&size=40x32&tf=linear&kernel=smooth"
+      "&s.camera.azimuth=77&s.camera.projection=perspective&k.pixel.frac_bits=9&view=mode%3Dside",
+      "#lab?config=base&scene=volume+%3D+%22shells%3A24%22%0A%5Bimage%5D%0Awidth+%3D+40%0Aheight+%3D+32%0A"
+      "%5Bcamera%5D%0Aelevation+%3D+-20.5%0A%5Bslabs%5D%0Awidth+%3D+2.0%0A"};
+  for (const std::string& link : links) {
+    const auto run = cli_test::fastsplat({"lab", "--print", link});
+    cli_test::expect_success(run);
+    const Json request = lab::request_of_state(lab::state_of_link(link));
+    const lab::Answer answer = session_.answer(request.dump());
+    const Json json = Json::parse(answer.json);
+    ASSERT_TRUE(json.contains("words_hash")) << answer.json.substr(0, 300);
+    EXPECT_EQ(run.out, json["command"].get<std::string>() + "\n");
+    expect_words(json["command"], answer.pictures.at(1));
+  }
+  const Json scene = lab::state_of_link(links[2]);
+  EXPECT_EQ(scene["settings"], (Json{{"camera.elevation", "-20.5"}, {"slabs.width", "2.0"}}));
+  cli_test::expect_error(cli_test::fastsplat({"lab", "--print", "#pictures?x=1"}), 2, {"not an address of the lab"});
+  cli_test::expect_error(cli_test::fastsplat({"lab"}), 2, {"--print LINK"});
+}
+
+TEST_F(LabCommand, OfALinkWithFilesWritesThem) {
+  Json request = kScene;
+  request["ask"] = "config", request["config"] = "tiny";
+  const std::string device = Json::parse(session_.answer(request.dump()).json)["toml"];
+  const std::string tf =
+      "points = [{at = 0.1, colour = [1.0, 0.2, 0.1], opacity = 0.0}, {at = 0.9, colour = [0.1, 0.9, 1.0], opacity = "
+      "0.6}]\n";
+  const auto encoded = [](const std::string& text) {
+    std::string out;
+    for (const unsigned char c : text) out += fmt::format("%{:02X}", c);
+    return out;
+  };
+  const std::string link =
+      "#lab?volume=shells:24&size=40x32&tf_toml=" + encoded(tf) + "&toml=" + encoded(device) + "&k.pixel.frac_bits=9";
+  const auto told = cli_test::fastsplat({"lab", "--print", link}, here());
+  EXPECT_NE(told.err.find("tf.toml; use --files"), std::string::npos) << told.err;
+  EXPECT_TRUE(folder_.entries().empty());
+  const auto run = cli_test::fastsplat({"lab", "--print", link, "--files", "."}, here());
+  cli_test::expect_success(run);
+  EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"mine.toml", "tf.toml"}));
+  Json page = lab::request_of_state(lab::state_of_link(link));
+  page["tf"] = folder_ / "tf.toml";
+  const lab::Answer answer = session_.answer(page.dump());
+  ASSERT_EQ(answer.pictures.size(), 2U) << answer.json.substr(0, 300);
+  expect_words(run.out.substr(0, run.out.size() - 1), answer.pictures[1]);
 }
 
 }  // namespace

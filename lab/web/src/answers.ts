@@ -107,7 +107,7 @@ export interface Story {
 }
 
 export interface Request {
-  ask: "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config";
+  ask: "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config" | "link";
   volume?: string;
   tf?: string;
   kernel?: string;
@@ -119,6 +119,7 @@ export interface Request {
   quick?: boolean;
   x?: number;
   y?: number;
+  link?: string;
 }
 
 export interface Answer<T = Result> {

@@ -114,8 +114,8 @@ export class Engine {
     if (data.kind === "failed") {
       job.fail(new Error(data.message));
     } else {
-      const json = JSON.parse(data.json);
-      const pictures = (json.pictures ?? []).map((head: Answer["pictures"][0]["head"], i: number) => ({ head, words: data.words[i] }));
+      const { pictures: heads = [], ...json } = JSON.parse(data.json);
+      const pictures = heads.map((head: Answer["pictures"][0]["head"], i: number) => ({ head, words: data.words[i] }));
       if (json.error) job.fail(new Error(json.error));
       else job.done({ json, pictures, ms: data.ms });
     }

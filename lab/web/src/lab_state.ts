@@ -19,19 +19,6 @@ export interface Lab {
   changes: Record<string, string>;
 }
 
-export const first_lab: Lab = {
-  volume: "shells:64",
-  tf: "",
-  tf_toml: "",
-  kernel: "gauss2",
-  width: 256,
-  height: 256,
-  settings: {},
-  config: "base",
-  toml: "",
-  changes: {},
-};
-
 /** A record with one value changed, or without it if `value` is null. */
 export function changed(from: Record<string, string>, name: string, value: string | null): Record<string, string> {
   const { [name]: _, ...rest } = from;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The address holds the state: "#lab?volume=...&view=..." and back.
-import type { Tables } from "./answers";
-import { first_lab, type Lab } from "./lab_state";
+// The address holds the state: "#lab?volume=...&view=...". The engine reads it back.
+import type { Request } from "./answers";
+import type { Lab } from "./lab_state";
 
 const prefix = "#lab?";
 const setting = "s.";
@@ -11,30 +11,21 @@ const change = "k.";
 export function link_of(lab: Lab, view: string): string {
   const words = new URLSearchParams({ volume: lab.volume, config: lab.config, size: `${lab.width}x${lab.height}` });
   for (const name of ["tf", "tf_toml", "toml"] as const) if (lab[name]) words.set(name, lab[name]);
-  if (lab.kernel !== first_lab.kernel) words.set("kernel", lab.kernel);
+  if (lab.kernel !== "gauss2") words.set("kernel", lab.kernel);
   for (const [name, value] of Object.entries(lab.settings)) words.set(setting + name, value);
   for (const [name, value] of Object.entries(lab.changes)) words.set(change + name, value);
   if (view) words.set("view", view.replace(/^#pictures\?/, ""));
   return prefix + words.toString().replaceAll("%2C", ",").replaceAll("%3A", ":");
 }
 
-/** The state of an address; null if it holds none. Unknown names are left out. */
-export function from_link(hash: string, tables: Tables): Lab | null {
-  if (!hash.startsWith(prefix)) return null;
-  const words = new URLSearchParams(hash.slice(prefix.length));
-  const size = /^(\d{1,5})x(\d{1,5})$/.exec(words.get("size") ?? "");
-  const lab: Lab = { ...first_lab, settings: {}, changes: {} };
-  for (const name of ["volume", "tf", "tf_toml", "kernel", "config", "toml"] as const) lab[name] = words.get(name) ?? first_lab[name];
-  if (size) Object.assign(lab, { width: clamped(Number(size[1])), height: clamped(Number(size[2])) });
-  for (const { name } of tables.settings) {
-    const value = words.get(setting + name);
-    if (value !== null) lab.settings[name] = value;
-  }
-  for (const { name } of tables.keys) {
-    const value = words.get(change + name);
-    if (value !== null) lab.changes[name] = value;
-  }
-  return lab;
+/** What the engine is asked for the state of an address; an address without one holds the first state. */
+export function link_request(hash: string): Request {
+  return { ask: "link", link: hash.startsWith(prefix) ? hash : "" };
+}
+
+/** The configuration's hash, if the address has it: a report's does. */
+export function hash_of_link(hash: string): string {
+  return (hash.startsWith(prefix) && new URLSearchParams(hash.slice(prefix.length)).get("config_hash")) || "";
 }
 
 export function view_of_link(hash: string): string {
@@ -45,5 +36,5 @@ export function view_of_link(hash: string): string {
 /** Sides of pictures that the page draws. */
 export const most_side = 1024;
 export function clamped(side: number): number {
-  return Math.min(most_side, Math.max(16, Math.round(side) || first_lab.width));
+  return Math.min(most_side, Math.max(16, Math.round(side) || 256));
 }

@@ -5,6 +5,8 @@ import { h } from "../../../report/web/src/dom";
 import { start_theme } from "../../../report/web/src/theme";
 import type { Tables } from "./answers";
 import { Engine, type Files } from "./engine";
+import type { Lab } from "./lab_state";
+import { link_request } from "./link";
 import { Page } from "./page";
 import { load_program } from "./program";
 import { Shelf } from "./shelf";
@@ -23,10 +25,17 @@ async function start(): Promise<void> {
     let notice = (_message: string): void => undefined;
     const quick = new Engine(program, files, (message) => notice(message));
     const tables = await quick.ask<Tables>("tables", { ask: "tables" });
+    let wrong = "";
+    const linked = quick.ask<Lab>("link", link_request(location.hash)).catch((error: Error) => {
+      wrong = error.message;
+      return quick.ask<Lab>("link", link_request(""));
+    });
+    const { json: lab } = await linked;
     const slow = new Engine(program, files, (message) => notice(message));
-    const page = new Page(tables.json, quick, slow, new Shelf(files, [quick, slow]));
+    const page = new Page(tables.json, lab, quick, slow, new Shelf(files, [quick, slow]));
     notice = (message) => page.notice(message);
     page.begin();
+    if (wrong) page.notice(wrong);
   } catch (error) {
     main.replaceChildren(h("p", { class: "broken", role: "alert" }, `The lab cannot start: ${(error as Error).message}`));
     document.documentElement.dataset.ready = "error";

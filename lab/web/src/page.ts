@@ -7,11 +7,11 @@ import { DevicePanel } from "./device_panel";
 import { Drawer, type Shown } from "./drawer";
 import { Dropped, type Engine } from "./engine";
 import { listen_for_files, save, taken } from "./files";
-import { first_lab, Store } from "./lab_state";
-import { from_link, link_of, view_of_link } from "./link";
+import { Store, type Lab } from "./lab_state";
+import { hash_of_link, link_of, link_request, view_of_link } from "./link";
 import { Measures } from "./measures";
 import { Panes } from "./panes";
-import { device_key, request_of, shown_command } from "./requests";
+import { device_key, request_of } from "./requests";
 import { ScenePanel } from "./scene_panel";
 import type { Shelf } from "./shelf";
 import { SlowWork } from "./slow_work";
@@ -46,17 +46,20 @@ export class Page {
   /** The viewer's link before there is a viewer. */
   private readonly view: string;
   private linking = 0;
+  /** Hash of the configuration that the first address names. */
+  private wanted_hash: string;
   private base_of = "";
   private frames = 0;
 
   constructor(
     private readonly tables: Tables,
+    first: Lab,
     private readonly quick: Engine,
     slow: Engine,
     private readonly shelf: Shelf,
   ) {
-    const linked = from_link(location.hash, tables);
-    this.store = new Store(linked ?? first_lab);
+    this.store = new Store(first);
+    this.wanted_hash = hash_of_link(location.hash);
     this.view = view_of_link(location.hash);
     this.open = listen_for_files((list) => void this.take(list));
     this.status = new Status([quick, slow], (engine) => engine.cancel());
@@ -80,10 +83,7 @@ export class Page {
     this.drawer = new Drawer(quick, tables, this.store, (lab) => this.shelf.prepare(lab), (shown) => this.show(shown), (message, cancelled) => this.fail(message, cancelled));
     this.lay_out();
     this.store.on((_lab, { live }) => this.changed(live));
-    addEventListener("hashchange", () => {
-      const next = from_link(location.hash, tables);
-      if (next) this.store.set(next);
-    });
+    addEventListener("hashchange", () => void this.follow());
     addEventListener("keydown", (event) => this.key(event));
   }
 
@@ -108,8 +108,8 @@ export class Page {
         h("div", { class: "pair" }, this.slowly.cycles.root, this.tried.root),
         this.slowly.story.root,
         this.slowly.tf.root,
-        this.slowly.terminated.root,
         this.slowly.blame.root,
+        this.slowly.terminated.root,
         h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
       ),
     );
@@ -153,6 +153,16 @@ export class Page {
     history.replaceState(null, "", link_of(this.store.now, this.panes.link || this.view));
   }
 
+  private async follow(): Promise<void> {
+    const request = link_request(location.hash);
+    if (!request.link) return;
+    try {
+      this.store.set((await this.quick.ask<Lab>("link", request)).json);
+    } catch (error) {
+      if (!(error instanceof Dropped)) this.status.show_error((error as Error).message);
+    }
+  }
+
   private async copy_link(): Promise<void> {
     this.address();
     say((await copy(location.href)) ? "Link copied" : "The link is in the address bar");
@@ -178,12 +188,14 @@ export class Page {
     this.device.show_file_error("");
     this.panes.show(frame, pictures);
     this.measures.show(shown);
-    this.command.textContent = shown_command(frame.command);
+    this.command.textContent = frame.command;
     document.title = `${shown.lab.volume.replace("/files/", "")}, ${frame.config.name}: FastSplat lab`;
     this.slowly.show(shown);
     const root = document.documentElement;
     Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
     if (!draft) this.tried.add(shown);
+    if (this.wanted_hash && this.wanted_hash !== frame.config.hash) this.notice(`The report's configuration ${frame.config.name} has the hash ${this.wanted_hash}; this one has ${frame.config.hash}. Set its changed keys, or drop its file.`);
+    this.wanted_hash = "";
   }
 
   private fail(message: string, cancelled: boolean): void {

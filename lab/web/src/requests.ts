@@ -53,8 +53,3 @@ export function tf_key(lab: Lab): string {
 export function device_key(lab: Lab): string {
   return JSON.stringify([lab.toml || lab.config, Object.entries(lab.changes).sort()]);
 }
-
-/** The command line without the page's own folder. */
-export function shown_command(command: string): string {
-  return command.replaceAll("/files/", "");
-}

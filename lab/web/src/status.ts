@@ -6,7 +6,7 @@ import type { Engine } from "./engine";
 /** Work that takes longer is shown. */
 const patience_ms = 1000;
 
-const names: Record<string, string> = { frame: "the pictures", cycles: "the cycles", errors: "the error by step", terminated: "the terminated pixels", pixel: "the pixel's story", histogram: "the histogram", config: "the configuration", tables: "the tables" };
+const names: Record<string, string> = { frame: "the pictures", cycles: "the cycles", errors: "the error by step", terminated: "the terminated pixels", pixel: "the pixel's story", histogram: "the histogram", config: "the configuration", tables: "the tables", link: "the link" };
 
 export class Status {
   readonly root = h("div", { class: "status" });

@@ -71,6 +71,27 @@ test("the address holds the state", async () => {
   await page.finish();
 });
 
+test("a report's address: a scene, and a configuration with its hash", async () => {
+  const address = (scene, more = {}) => `#lab?${new URLSearchParams({ scene, config: "tiny", ...more })}`;
+  const scene = 'volume = "shells:32"\n[image]\nwidth = 96\nheight = 80\n[camera]\nazimuth = 75.0\n';
+  const page = await open({ hash: address(scene, { config_hash: "0123456789abcdef" }) });
+  await settled(page);
+  assert.equal((await data(page)).size, "96x80");
+  assert.match(await page.textContent("#command"), /--volume shells:32 --size 96x80 --azimuth 75\.0 --engine cmodel --config tiny/);
+  assert.match(await page.textContent("#notice"), /configuration tiny has the hash 0123456789abcdef; this one has/);
+  await page.finish();
+  // Without a hash: no notice. A scene that cannot be read: a notice, and the first picture.
+  const plain = await open({ hash: address(scene) });
+  await settled(plain);
+  assert.equal(await hidden(plain, "#notice"), true);
+  await plain.finish();
+  const wrong = await open({ hash: address("volume = ") });
+  await settled(wrong);
+  assert.match(await wrong.textContent("#notice"), /scene:1/);
+  assert.match(await shown_hash(wrong), /^[0-9a-f]{16}$/);
+  await wrong.finish();
+});
+
 test("addresses that name what is not there", async () => {
   for (const [hash, pattern] of [
     ["#lab?volume=nothing:32&config=base&size=128x128", /nothing:32.*known:/],

@@ -42,6 +42,7 @@ export interface Picture {
   crop?: { x: number; y: number; full_width: number; full_height: number };
   volume?: string;
   config?: string;
+  config_hash?: string;
   /** The scene file's text. */
   scene?: string;
   /** The file of 3-D Gaussians. */

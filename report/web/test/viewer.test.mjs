@@ -73,6 +73,18 @@ function overlaps() {
   return found;
 }
 
+test("the lab opens with a picture's scene and configuration", async () => {
+  const page = await open(whole);
+  const links = await page.$$eval("#open-in-lab a", (all) => all.map((each) => [each.getAttribute("href"), each.textContent]));
+  assert.equal(links.length, 1, "one for golden's and the device's picture");
+  const [href, text] = links[0];
+  assert.match(href, /^lab\.html#lab\?scene=/);
+  assert.match(text, /shells:16.*base.*48/);
+  assert.match(await page.textContent("#open-in-lab"), /lab\.html must lie beside this report; \.\/run lab makes it/);
+  assert.equal(fastsplat(["lab", "--print", href]), "fastsplat render --volume shells:16 --size 48 --engine cmodel --config base --out device.exr\n");
+  await page.finish();
+});
+
 for (const [name, file] of [["whole", () => whole], ["failing", () => failing]]) {
   test(`${name}: light and dark, narrow and wide, nothing on another thing`, async () => {
     let checked = 0;

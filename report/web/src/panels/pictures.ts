@@ -3,6 +3,7 @@
 import { decoded } from "../codec";
 import { h } from "../dom";
 import { figure, number_text } from "../figures";
+import { lab_links } from "../lab_link";
 import { verb_of, type Context, type Panel, type Picture, type Result } from "../page";
 import { size_text, subject_of, subject_of_pictures, subject_text } from "../subject";
 import { Plane } from "../viewer/plane";
@@ -96,6 +97,7 @@ export const pictures: Panel = {
         const same = context.pictures.find((other) => other.id === p.same_as);
         return h("p", { class: "note same" }, `${p.title} and ${same?.title ?? p.same_as}: the same words, every one.`);
       }),
+      lab_links(context.pictures) ?? "",
     );
     new Viewer(viewer, scenes, (scene, a, b) => tour_of(context, scene, a, b));
   },

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/number_text.hpp"
+#include "cmodel/numbers/config.hpp"
+#include "lab/request.hpp"
+#include "scene/scene_file.hpp"
+#include "scene/settings.hpp"
+#include "scene/volume/synthetic.hpp"
+
+namespace fastsplat::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Query = std::map<std::string, std::string>;
+
+constexpr std::string_view kPrefix = "#lab?";
+constexpr int kLeastSide = 16, kMostSide = 1024;  ///< pictures that the page draws
+
+std::optional<int> hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return std::nullopt;
+}
+
+/// A word of a query as a browser decodes it.
+std::string decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : std::nullopt;
+    const auto low = high ? hex_digit(text[i + 2]) : std::nullopt;
+    if (low) i += 2;
+    out += low ? static_cast<char>(16 * *high + *low) : text[i] == '+' ? ' ' : text[i];
+  }
+  return out;
+}
+
+Query query_of(std::string_view text) {
+  Query words;
+  while (!text.empty()) {
+    const auto one = text.substr(0, text.find('&'));
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+    const auto equals = std::min(one.find('='), one.size());
+    words.emplace(decoded(one.substr(0, equals)), decoded(one.substr(std::min(one.size(), equals + 1))));
+  }
+  return words;
+}
+
+bool is_built_in(const std::string& volume) {
+  const auto names = volume::synthetic_names();
+  return std::find(names.begin(), names.end(), volume.substr(0, volume.find(':'))) != names.end();
+}
+
+void take_scene(const std::string& text, Json& state) {
+  const scene::SceneDescription scene = scene::parse_scene(text, "scene").description;
+  // The page has files of its own only, without their folders.
+  state["volume"] =
+      is_built_in(scene.volume) ? scene.volume : "/files/" + std::filesystem::path(scene.volume).filename().string();
+  state["tf"] = scene.transfer_function;
+  if (!scene.kernel.empty()) state["kernel"] = scene.kernel;
+  state["width"] = scene.width, state["height"] = scene.height;
+  for (const scene::Setting& setting : scene::settings()) {
+    const std::string table = setting.table;
+    if (table == "image" || (table == "kernel" && !scene.kernel.empty()) || scene::at_default(setting, scene)) continue;
+    state["settings"][scene::dotted(setting)] = flag_text(setting, scene);
+  }
+}
+
+void take_size(const std::string& text, Json& state) {
+  const auto cross = std::min(text.find('x'), text.size());
+  const auto width = integer_from<int>(std::string_view(text).substr(0, cross));
+  const auto height = integer_from<int>(std::string_view(text).substr(std::min(text.size(), cross + 1)));
+  if (width && height) state["width"] = *width, state["height"] = *height;
+}
+
+}  // namespace
+
+Json state_of_link(const std::string& link) {
+  Json state{{"volume", "shells:64"},      {"tf", ""},         {"tf_toml", ""},
+             {"kernel", "gauss2"},         {"width", 256},     {"height", 256},
+             {"settings", Json::object()}, {"config", "base"}, {"toml", ""},
+             {"changes", Json::object()}};
+  if (link.empty()) return state;
+  const auto at = link.find(kPrefix);
+  if (at == std::string::npos) {
+    throw_usage({.where = "link",
+                 .what = "not an address of the lab",
+                 .expected = "#lab?volume=...",
+                 .got = "'" + link + "'",
+                 .fix = "copy it with the page's button \"Copy link\", and quote it for the shell"});
+  }
+  const Query words = query_of(std::string_view(link).substr(at + kPrefix.size()));
+  if (const auto scene = words.find("scene"); scene != words.end()) take_scene(scene->second, state);
+  for (const char* name : {"volume", "tf", "tf_toml", "kernel", "config", "toml"}) {
+    if (const auto found = words.find(name); found != words.end()) state[name] = found->second;
+  }
+  if (const auto size = words.find("size"); size != words.end()) take_size(size->second, state);
+  for (const char* side : {"width", "height"}) state[side] = std::clamp(state[side].get<int>(), kLeastSide, kMostSide);
+  for (const scene::Setting& setting : scene::settings()) {
+    const std::string name = scene::dotted(setting);
+    if (const auto found = words.find("s." + name); found != words.end()) state["settings"][name] = found->second;
+  }
+  for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
+    if (const auto found = words.find("k." + std::string(key.name)); found != words.end())
+      state["changes"][key.name] = found->second;
+  }
+  return state;
+}
+
+Json request_of_state(const Json& state) {
+  Json request{{"ask", "frame"}};
+  for (const char* name : {"volume", "kernel", "settings", "config"}) request[name] = state.at(name);
+  request["tf"] = state.at("tf_toml").get<std::string>().empty() ? state.at("tf") : Json("/files/tf.toml");
+  if (!state.at("toml").get<std::string>().empty()) request["toml"] = state.at("toml");
+  for (const char* side : {"width", "height"})
+    request["settings"][fmt::format("image.{}", side)] = std::to_string(state.at(side).get<int>());
+  request["changes"] = Json::array();
+  for (const auto& [key, value] : state.at("changes").items())
+    request["changes"].push_back(key + "=" + value.get<std::string>());
+  return request;
+}
+
+}  // namespace fastsplat::lab

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page's address: everything behind "#lab?" as a scene and a device, and as the program's command line.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fastsplat::lab {
+
+/// What the page shows: {"volume", "tf", "tf_toml", "kernel", "width", "height", "settings": {NAME: text}, "config",
+/// "toml", "changes": {KEY: text}}. `link`: an address or its part from "#" on,
+/// "volume=...&config=...&size=WxH&s.SETTING=...& k.KEY=..."; "scene=TEXT", a scene.toml, stands in place of volume and
+/// settings. Absent words keep their defaults, unknown ones are left out. Throws UserError (Usage) for other addresses.
+nlohmann::ordered_json state_of_link(const std::string& link);
+
+/// The request "frame" for a state. A transfer function of its own is "tf.toml".
+nlohmann::ordered_json request_of_state(const nlohmann::ordered_json& state);
+
+}  // namespace fastsplat::lab

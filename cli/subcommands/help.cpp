@@ -68,7 +68,7 @@ std::vector<std::string> subcommand_words() {
 }
 
 void declare(Options& options, HelpArguments& to) {
-  options.positionals("VERB", to.subcommand, 0, "a subcommand, of one or two words");
+  options.positionals("VERB", to.subcommand, 0, "a subcommand");
   options.only_values(subcommand_words);
   options.flag("--man", to.man, "print the manual page in roff: `fastsplat help --man render | man -l -`");
   options.flag("--markdown", to.markdown, "print the reference of all subcommands in Markdown");

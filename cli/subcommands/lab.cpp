@@ -67,6 +67,8 @@ void declare(Options& options, LabArguments& to) {
   declare(options, to.common);
   options.example("fastsplat lab --print '#lab?volume=shells:32&config=tiny&size=96x96&s.camera.azimuth=40'",
                   "from the page's picture to the program's");
+  options.example("fastsplat lab --print '#lab?volume=shells:32&k.sheet.frac_bits=10' --json link.json",
+                  "the command, and everything that the link holds");
 }
 
 }  // namespace

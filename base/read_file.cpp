@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <vector>
 
 #include "base/error.hpp"
@@ -95,7 +96,8 @@ std::string start_of(const std::filesystem::path& path, std::size_t most) {
   return start;
 }
 
-std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
+  max_bytes = std::min<std::uint64_t>(max_bytes, std::numeric_limits<std::size_t>::max() / 4);
   require_readable_file(path);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
@@ -108,7 +110,7 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t max_by
                  .fix = "check that this is the right file"});
   }
   std::ifstream in(path, std::ios::binary);
-  std::string text(size, '\0');
+  std::string text(static_cast<std::size_t>(size), '\0');
   in.read(text.data(), static_cast<std::streamsize>(size));
   if (!in) unreadable(path, "cannot read the whole file", "check the disk, then try again");
   return text;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -18,7 +19,7 @@ void require_regular_file(const std::filesystem::path& path, const std::string& 
 /// The file's first bytes, at most `most`; empty unless it is a readable regular file.
 std::string start_of(const std::filesystem::path& path, std::size_t most);
 
-/// The whole file. Refuses files larger than `max_bytes` before reading them.
-std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 20);
+/// The whole file. Refuses files larger than `max_bytes`, or than a quarter of the address space, before reading them.
+std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1U << 20U);
 
 }  // namespace fastsplat

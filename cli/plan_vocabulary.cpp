@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 34;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
 
 /// The hash of a file's bytes; each file is read once.
 std::string hash_of_file(const fs::path& path) {

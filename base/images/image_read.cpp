@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <span>
@@ -23,7 +24,7 @@
 namespace fastsplat::images {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 34;  // bytes; twice 2^31 float values
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 34;  // bytes; twice 2^31 float values
 
 // The format by its magic number: extensions may lie, and trying every reader on hostile bytes adds risk.
 const char* format_of(std::span<const unsigned char> bytes) {

@@ -2,6 +2,7 @@
 // Files of 3-D Gaussians: .ply as trainers write it, and .splat, 32 bytes each (docs/techniques/gaussians.md).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace fastsplat::scene {
 
-inline constexpr std::size_t kMostGaussianBytes = std::size_t{16} << 30;  ///< largest file
+inline constexpr std::uint64_t kMostGaussianBytes = std::uint64_t{16} << 30;  ///< largest file
 
 /// A built-in scene "name[:count]", or a file: PLY by its first line, others by their ending. Rows that cannot be drawn
 /// are dropped with a remark. Every failure is a UserError (Input) with the fix.

@@ -11,6 +11,7 @@
 #include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
@@ -113,12 +114,12 @@ std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {
 cmodel::Config load_for_gaussians(const ConfigFlags& flags) {
   if (flags.config) return load(flags);
   std::vector<std::string> changes = flags.changes;
-  for (const std::string change : {"composite.every_sample=1", "composite.freeze_below=7"}) {
+  for (const std::string change : driver::kGaussianChanges) {
     const std::string key = change.substr(0, change.find('=') + 1);
     if (std::ranges::none_of(flags.changes, [&](const std::string& other) { return other.starts_with(key); }))
       changes.push_back(change);
   }
-  return load("ellipse", changes);
+  return load(driver::kGaussianConfig, changes);
 }
 
 std::string summary(const scene::GaussianScene& scene) {

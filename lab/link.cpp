@@ -85,9 +85,16 @@ void take_size(const std::string& text, Json& state) {
 }  // namespace
 
 Json state_of_link(const std::string& link) {
-  Json state{{"volume", "shells:64"},      {"tf", ""},         {"tf_toml", ""},
-             {"kernel", "gauss2"},         {"width", 256},     {"height", 256},
-             {"settings", Json::object()}, {"config", "base"}, {"toml", ""},
+  Json state{{"volume", "shells:64"},
+             {"gaussians", ""},
+             {"tf", ""},
+             {"tf_toml", ""},
+             {"kernel", "gauss2"},
+             {"width", 256},
+             {"height", 256},
+             {"settings", Json::object()},
+             {"config", "base"},
+             {"toml", ""},
              {"changes", Json::object()}};
   if (link.empty()) return state;
   const auto at = link.find(kPrefix);
@@ -100,13 +107,17 @@ Json state_of_link(const std::string& link) {
   }
   const Query words = query_of(std::string_view(link).substr(at + kPrefix.size()));
   if (const auto scene = words.find("scene"); scene != words.end()) take_scene(scene->second, state);
-  for (const char* name : {"volume", "tf", "tf_toml", "kernel", "config", "toml"}) {
+  for (const char* name : {"volume", "gaussians", "tf", "tf_toml", "kernel", "config", "toml"}) {
     if (const auto found = words.find(name); found != words.end()) state[name] = found->second;
   }
   if (const auto size = words.find("size"); size != words.end()) take_size(size->second, state);
   for (const char* side : {"width", "height"}) state[side] = std::clamp(state[side].get<int>(), kLeastSide, kMostSide);
   for (const scene::Setting& setting : scene::settings()) {
     const std::string name = scene::dotted(setting);
+    if (const auto found = words.find("s." + name); found != words.end()) state["settings"][name] = found->second;
+  }
+  for (const auto& setting : gaussian_settings()) {
+    const std::string name = setting.at("name");
     if (const auto found = words.find("s." + name); found != words.end()) state["settings"][name] = found->second;
   }
   for (const cmodel::ConfigKey& key : cmodel::config_keys()) {
@@ -118,7 +129,7 @@ Json state_of_link(const std::string& link) {
 
 Json request_of_state(const Json& state) {
   Json request{{"ask", "frame"}};
-  for (const char* name : {"volume", "kernel", "settings", "config"}) request[name] = state.at(name);
+  for (const char* name : {"volume", "gaussians", "kernel", "settings", "config"}) request[name] = state.at(name);
   request["tf"] = state.at("tf_toml").get<std::string>().empty() ? state.at("tf") : Json("/files/tf.toml");
   if (!state.at("toml").get<std::string>().empty()) request["toml"] = state.at("toml");
   for (const char* side : {"width", "height"})

@@ -50,6 +50,7 @@ scene::SceneDescription described(const Json& json, std::vector<scene::Given>& g
   to.kernel = text_of(json, "kernel", to.kernel);
   const Json settings = json.value("settings", Json::object());
   for (const auto& [name, value] : settings.items()) {
+    if (is_of_gaussians(name)) continue;
     const scene::Setting& setting = setting_named(name);
     const auto text = value.get<std::string>();
     if (const auto problem = scene::problem_with(setting, text); !problem.empty())
@@ -66,10 +67,42 @@ scene::SceneDescription described(const Json& json, std::vector<scene::Given>& g
   return to;
 }
 
+/// The request without settings that have no effect on what it draws, which `idle` receives.
+Json only_of_its_kind(Json json, bool gaussians, std::vector<Idle>& idle) {
+  Json kept = Json::object();
+  const Json settings = json.value("settings", Json::object());
+  for (const auto& [name, value] : settings.items()) {
+    const std::string reason = gaussians && !is_of_gaussians(name)   ? idle_for_gaussians(name)
+                               : !gaussians && is_of_gaussians(name) ? "has no effect without 3-D Gaussians"
+                                                                     : "";
+    if (reason.empty())
+      kept[name] = value;
+    else
+      idle.push_back({name, reason});
+  }
+  json["settings"] = kept;
+  return json;
+}
+
+/// Transfer function and kernel.
+std::string volume_flags(const scene::SceneDescription& d) {
+  std::string flags;
+  const bool own = d.transfer_function.starts_with(kFiles);
+  if (!d.transfer_function.empty()) flags += " --tf " + (own ? "tf.toml" : shell_word(d.transfer_function));
+  // Both halves of a shape: the program would take a missing one from its default kernel.
+  if (d.kernel.empty())
+    flags += fmt::format(" --kernel-a {} --kernel-radius {}", d.kernel_a, d.kernel_radius);
+  else if (d.kernel != scene::SceneDescription{}.kernel)
+    flags += " --kernel " + shell_word(d.kernel);
+  return flags;
+}
+
 }  // namespace
 
-Request read_request(const Json& json) {
+Request read_request(const Json& whole) {
   Request out;
+  const std::string gaussians = text_of(whole, "gaussians", "");
+  const Json json = only_of_its_kind(whole, !gaussians.empty(), out.idle);
   std::vector<scene::Given> given;
   out.scene = described(json, given);
   // A setting may make another one idle, so one goes at a time.
@@ -86,6 +119,7 @@ Request read_request(const Json& json) {
     std::vector<scene::Given> same;
     out.scene = described(less, same);
   }
+  if (!gaussians.empty()) out.gaussians = gaussian_request(gaussians, json["settings"], out.scene);
   const std::string toml = text_of(json, "toml", "");
   out.config =
       toml.empty() ? driver::load_config(text_of(json, "config", "base")) : driver::parse_config("configuration", toml);
@@ -102,20 +136,17 @@ std::string flag_text(const scene::Setting& setting, const scene::SceneDescripti
 
 std::string command_line(const Json& request, const Request& read) {
   const scene::SceneDescription& d = read.scene;
-  std::string line = fmt::format("fastsplat render --volume {}", shell_word(outside(d.volume)));
-  const bool own = d.transfer_function.starts_with(kFiles);
-  if (!d.transfer_function.empty()) line += " --tf " + (own ? "tf.toml" : shell_word(d.transfer_function));
-  // Both halves of a shape: the program would take a missing one from its default kernel.
-  if (d.kernel.empty())
-    line += fmt::format(" --kernel-a {} --kernel-radius {}", d.kernel_a, d.kernel_radius);
-  else if (d.kernel != scene::SceneDescription{}.kernel)
-    line += " --kernel " + shell_word(d.kernel);
+  std::string line = "fastsplat render ";
+  line += read.gaussians ? "--gaussians " + shell_word(outside(read.gaussians->name)) + read.gaussians->flags
+                         : "--volume " + shell_word(outside(d.volume));
+  if (!read.gaussians) line += volume_flags(d);
   line += d.width == d.height ? fmt::format(" --size {}", d.width) : fmt::format(" --size {}x{}", d.width, d.height);
   const Json settings = request.value("settings", Json::object());
   for (const auto& [name, value] : settings.items()) {
+    if (is_of_gaussians(name) || is_idle(read, name)) continue;
     const auto& setting = setting_named(name);
-    if (is_idle(read, name) || scene::at_default(setting, d) || shapes_kernel(name)) continue;
-    if (name == "camera.projection") line += " --perspective";
+    if (scene::at_default(setting, d) || shapes_kernel(name)) continue;
+    if (name == "camera.projection" && !read.gaussians) line += " --perspective";
     if (*setting.flag != '\0') line += fmt::format(" {} {}", setting.flag, shell_word(value.get<std::string>()));
   }
   line += " --engine cmodel --config " +

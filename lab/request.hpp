@@ -3,10 +3,12 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cmodel/numbers/config.hpp"
+#include "lab/gaussians.hpp"
 #include "scene/capability.hpp"
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
@@ -21,11 +23,12 @@ struct Idle {
 
 /// {"volume": "shells:64", "tf": "", "kernel": "gauss2", "settings": {"camera.azimuth": "30", ...},
 ///  "config": "base", "changes": ["radial.entries=256"]}; each key may be absent. Values are texts as flags take them.
-/// "toml", a configuration file's text, stands in place of "config".
+/// "toml", a configuration file's text, stands in place of "config"; "gaussians", a name, in place of "volume".
 struct Request {
-  scene::SceneDescription scene;
+  scene::SceneDescription scene;  ///< of Gaussians: camera and size
+  std::optional<GaussianRequest> gaussians;
   cmodel::Config config;
-  std::vector<Idle> idle;  ///< left out of `scene`
+  std::vector<Idle> idle;  ///< left out
 };
 
 /// Throws UserError about the first invalid value.

@@ -23,10 +23,10 @@
 #include "base/srgb.hpp"
 #include "cmodel/cycles/cycle_model.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/compile.hpp"
 #include "driver/tiles/cull_log.hpp"
-#include "driver/tiles/frame_head.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "driver/tiles/render.hpp"
-#include "driver/tiles/run_device.hpp"
 #include "golden/render.hpp"
 #include "lab/link.hpp"
 #include "lab/tables.hpp"
@@ -171,62 +171,89 @@ const Image& Session::golden_of(Kept& kept) {
   return kept.golden;
 }
 
+const scene::Scene& Session::scene_of(const Request& request) {
+  if (request.gaussians) {
+    throw_usage({.where = request.gaussians->name,
+                 .what = "supports volumes only, not 3-D Gaussians",
+                 .expected = {},
+                 .got = {},
+                 .fix = "choose a volume"});
+  }
+  return kept(request.scene).scene;
+}
+
+void Session::emit(const Request& request, const cmodel::BeatSink& sink) {
+  if (!request.gaussians) {
+    driver::CompiledFrame(scene_of(request), request.config).emit(sink);
+    return;
+  }
+  const GaussianView& view = gaussians_.of(*request.gaussians);
+  driver::GaussianFrame(view.scene, view.projected, request.config).emit(sink);
+}
+
+Session::Drawn Session::drawn(const Request& request) {
+  const driver::RenderOptions options{.threads = 1, .counters = false, .progress = {}};
+  if (!request.gaussians) {
+    auto render = driver::render(scene_of(request), request.config, options);
+    return {std::move(render.frame), render.report.splat_records};
+  }
+  const GaussianView& view = gaussians_.of(*request.gaussians);
+  auto render = driver::render_gaussians(driver::GaussianFrame(view.scene, view.projected, request.config), options);
+  return {std::move(render.frame), render.report.records};
+}
+
 Json Session::frame(const Json& json, std::vector<Words>& pictures) {
   const Request request = read_request(json);
-  Kept& one = kept(request.scene);
-  const Image& golden = golden_of(one);
+  const GaussianView* const view = request.gaussians ? &gaussians_.of(*request.gaussians) : nullptr;
+  const Image& golden = view != nullptr ? view->golden : golden_of(kept(request.scene));
+  const auto& remarks = view != nullptr ? view->scene.cloud->remarks : kept(request.scene).scene.remarks;
   pictures.push_back(words_of("golden", golden));
-  Json out{{"idle", idle_json(request.idle)}, {"command", command_line(json, request)},
-           {"remarks", one.scene.remarks},    {"width", golden.width},
-           {"height", golden.height},         {"config", config_json(request.config)}};
+  Json out{{"idle", idle_json(request.idle)},
+           {"command", command_line(json, request)},
+           {"remarks", remarks},
+           {"width", golden.width},
+           {"height", golden.height},
+           {"config", config_json(request.config)}};
   try {
-    const auto drawn = driver::render(one.scene, request.config, {.threads = 1, .counters = false, .progress = {}});
-    pictures.push_back(words_of("device", drawn.frame));
+    const Drawn device = drawn(request);
+    pictures.push_back(words_of("device", device.frame));
     analysis::CompareOptions options;
     options.threads = 1;
     options.similarity = !json.value("quick", false);
-    out["words_hash"] = hash_of(drawn.frame.words);
-    out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(drawn.frame), options)));
-    out["records"] = drawn.report.splat_records;
+    out["words_hash"] = hash_of(device.frame.words);
+    out["compare"] = Json::parse(analysis::to_json(analysis::compare(golden, driver::to_image(device.frame), options)));
+    out["records"] = device.records;
   } catch (const UserError& error) {
     out["device_error"] = error.what();
   }
+  for (Words& words : pictures) words.encoded = view != nullptr && !view->scene.cloud->linear;
   return out;
 }
 
 Json Session::cycles(const Json& json) {
   const Request request = read_request(json);
-  const scene::Scene& scene = kept(request.scene).scene;
   const cmodel::Config& config = request.config;
   if (auto wrong = cmodel::cycle_violation(config)) throw_usage(*wrong);
   cmodel::CycleOptions options;
   driver::CullRun culls;
   if (config.culls()) {
-    culls = driver::run_culls(driver::CompiledFrame(scene, config, 1), 1, {});
+    culls = driver::run_culls(driver::CompiledFrame(scene_of(request), config, 1), 1, {});
     options.culls = &culls.log;
   }
-  Json out;
-  driver::run_device(
-      scene, config,
-      [&](cmodel::PixelSink&) -> std::unique_ptr<cmodel::Device> {
-        return std::make_unique<cmodel::CycleModel>(config, cmodel::StreamScope::Subset, options);
-      },
-      {.threads = 1, .progress = {}},
-      [&](const cmodel::Device& device) {
-        const auto& model = dynamic_cast<const cmodel::CycleModel&>(device);
-        out["actual"] = model.stalls().busy;
-        out["idle"] = model.idle_cycles();
-        out["end"] = model.end_cycle();
-        out["account"] = counted_json(model.account());
-        out["bytes_in"] = model.sent_beats() * cmodel::kBeatBytes;
-        out["bytes_out"] = model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * kPixelBytes;
-      });
-  return out;
+  cmodel::CycleModel model(config, cmodel::StreamScope::Subset, options);
+  emit(request, [&](std::span<const cmodel::Beat> beats) { model.consume(beats); });
+  model.finish();
+  return {{"actual", model.stalls().busy},
+          {"idle", model.idle_cycles()},
+          {"end", model.end_cycle()},
+          {"account", counted_json(model.account())},
+          {"bytes_in", model.sent_beats() * cmodel::kBeatBytes},
+          {"bytes_out", model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * kPixelBytes}};
 }
 
 Json Session::errors(const Json& json, std::vector<Words>& pictures) {
   const Request request = read_request(json);
-  const stages::Chain chain(kept(request.scene).scene, request.config);
+  const stages::Chain chain(scene_of(request), request.config);
   const auto attribution = analysis::attribute(chain, {.quick = true, .threads = 1});
   pictures.push_back(display_words("blame", analysis::blame_map(attribution)));
   return analysis::to_json(attribution, std::nullopt);
@@ -235,7 +262,7 @@ Json Session::errors(const Json& json, std::vector<Words>& pictures) {
 /// The picture's words: the sheet's number plus 1, and 0 where a pixel never terminates.
 Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
   const Request request = read_request(json);
-  const TerminationMap map = termination(kept(request.scene).scene, request.config);
+  const TerminationMap map = termination(scene_of(request), request.config);
   Words picture{.id = "terminated", .width = map.width, .height = map.height, .channels = 1, .words = map.sheets};
   std::optional<std::int32_t> first;
   std::int32_t last = 0;
@@ -257,13 +284,13 @@ Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
 
 Json Session::pixel(const Json& json) {
   const Request request = read_request(json);
-  const stages::Chain chain(kept(request.scene).scene, request.config);
+  const stages::Chain chain(scene_of(request), request.config);
   return analysis::to_json(analysis::explain(chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), chain);
 }
 
 Json Session::histogram(const Json& json) {
   const Request request = read_request(json);
-  const scene::Scene& scene = kept(request.scene).scene;
+  const scene::Scene& scene = scene_of(request);
   const volume::Volume& volume = *scene.volume;
   constexpr std::size_t kBins = 256;
   std::vector<std::uint64_t> bins(kBins);
@@ -332,7 +359,8 @@ Answer Session::answer(const std::string& request) {
                     {"height", words.height},
                     {"channels", words.channels},
                     {"scale", words.scale},
-                    {"int_bits", words.int_bits}});
+                    {"int_bits", words.int_bits},
+                    {"encoded", words.encoded}});
   out["pictures"] = list;
   answer.json = json_text(out, -1);
   return answer;

@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "base/image.hpp"
+#include "cmodel/stream/device.hpp"
+#include "cmodel/stream/frame.hpp"
+#include "lab/gaussians.hpp"
 #include "lab/request.hpp"
 #include "scene/scene.hpp"
 #include "scene/volume/volume.hpp"
@@ -20,7 +23,8 @@ struct Words {
   std::string id;  ///< "golden", "device", "blame", "terminated"
   int width = 0, height = 0, channels = 4;
   std::int64_t scale = 1;
-  int int_bits = -1;  ///< of the device's format; -1: floats, rounded to the scale
+  int int_bits = -1;     ///< of the device's format; -1: floats, rounded to the scale
+  bool encoded = false;  ///< sRGB, as the colours of most trained Gaussians
   std::vector<std::int32_t> words;
 };
 
@@ -45,9 +49,20 @@ class Session {
     Image golden;  ///< empty until it is asked for
   };
 
+  struct Drawn {
+    cmodel::Frame frame;
+    std::uint64_t records = 0;
+  };
+
   std::shared_ptr<const volume::Volume> volume_of(const scene::SceneDescription& description);
   Kept& kept(const scene::SceneDescription& description);
   const Image& golden_of(Kept& kept);
+  /// The scene of a request about a volume. Throws UserError for Gaussians.
+  const scene::Scene& scene_of(const Request& request);
+  /// Compiles what a request draws, without end_frame.
+  void emit(const Request& request, const cmodel::BeatSink& sink);
+
+  Drawn drawn(const Request& request);
 
   nlohmann::ordered_json frame(const nlohmann::ordered_json& json, std::vector<Words>& pictures);
   nlohmann::ordered_json cycles(const nlohmann::ordered_json& json);
@@ -60,6 +75,7 @@ class Session {
   std::string volume_key_;
   std::shared_ptr<const volume::Volume> volume_;
   std::vector<std::unique_ptr<Kept>> scenes_;  ///< the last used first
+  GaussianViews gaussians_;
 };
 
 }  // namespace fastsplat::lab

@@ -7,8 +7,11 @@
 #include "base/each.hpp"
 #include "base/version.hpp"
 #include "driver/config/config_file.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
+#include "lab/gaussians.hpp"
 #include "lab/request.hpp"
 #include "scene/embedded.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
 #include "scene/settings.hpp"
 #include "scene/volume/synthetic.hpp"
 
@@ -78,6 +81,15 @@ Json tables() {
   out["volumes"] = Json::array();
   for (const auto& name : volume::synthetic_names())
     out["volumes"].push_back({{"name", name}, {"size", volume::default_synthetic_size(name)}});
+  out["gaussians"] = Json::array();
+  for (const auto& name : scene::synthetic_gaussian_names()) out["gaussians"].push_back(name);
+  out["gaussian_settings"] = gaussian_settings();
+  out["gaussian_config"] = driver::kGaussianConfig;
+  out["gaussian_changes"] = Json::object();
+  for (const std::string change : driver::kGaussianChanges) {
+    const auto equals = change.find('=');
+    out["gaussian_changes"][change.substr(0, equals)] = change.substr(equals + 1);
+  }
   out["presets"] = scene::transfer_function_presets();
   out["kernels"] = scene::kernel_names();
   return out;

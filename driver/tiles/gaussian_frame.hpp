@@ -22,6 +22,10 @@
 
 namespace fastsplat::driver {
 
+/// A configuration and the changes of it that draw Gaussians with golden's early-termination threshold.
+inline constexpr const char* kGaussianConfig = "ellipse";
+inline constexpr std::array kGaussianChanges{"composite.every_sample=1", "composite.freeze_below=7"};
+
 /// Report on a compiled view; `cut` and `saturated` are 0 in a healthy one.
 struct GaussianReport {
   scene::ProjectionReport projection;

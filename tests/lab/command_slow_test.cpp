@@ -101,6 +101,25 @@ TEST_F(LabCommand, DrawsTheSameForKernelsAndChangedDevices) {
   EXPECT_TRUE(drawn_alike(request));
 }
 
+TEST_F(LabCommand, DrawsTheSameOfGaussians) {
+  const Json device = {"composite.every_sample=1", "composite.freeze_below=7"};
+  std::size_t frames = 0;
+  for (const Json& settings : std::vector<Json>{{{"camera.projection", "perspective"}},
+                                                {{"camera.azimuth", "200"}, {"camera.zoom", "1.5"}},
+                                                {{"camera.projection", "perspective"}, {"camera.fov", "50"}},
+                                                {{"gaussians.up", "-x"}, {"gaussians.cutoff", "2"}},
+                                                {{"gaussians.low_pass", "1.5"}, {"slabs.width", "2"}}}) {
+    for (const char* name : {"shells:300", "cloud:200"}) {
+      Json request{{"ask", "frame"}, {"gaussians", name}, {"settings", kSize}, {"config", "ellipse"}};
+      request["settings"].update(settings);
+      request["changes"] = device;
+      EXPECT_TRUE(drawn_alike(request)) << request;
+      ++frames;
+    }
+  }
+  std::printf("[figure] frames of Gaussians alike = %zu (limit 10)\n", frames);
+}
+
 // A link in the forms that a user has: the whole address, its part from # on, a report's with a scene.toml.
 TEST_F(LabCommand, OfALinkIsThePages) {
   const std::vector<std::string> links{

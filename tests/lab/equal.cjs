@@ -44,7 +44,24 @@ function requests(tables) {
     for (const config of ["base", "tiny"]) out.push({ ask: "terminated", volume: "shells:40", settings: { ...settings, opacity_scale: "9" }, config });
   }
   for (const { name: config } of tables.configs) out.push({ ask: "config", config });
+  out.push(...gaussian_requests(tables));
   out.push({ ask: "frame", config: "none" }, { ask: "frame", volume: "shells:9999" }, { ask: "frame", settings: { "camera.azimuth": "x" } }, { ask: "nothing" });
+  return out;
+}
+
+/** 3-D Gaussians: built in and from files, several views, and devices that refuse them. */
+function gaussian_requests(tables) {
+  const { gaussian_config: config, gaussian_changes } = tables;
+  const changes = Object.entries(gaussian_changes).map(([key, value]) => `${key}=${value}`);
+  const out = [];
+  for (const gaussians of ["shells:400", "cloud:300", "shells:2000"])
+    for (const settings of [turned, perspective, { ...perspective, "camera.zoom": "2", "gaussians.cutoff": "2.5", "gaussians.up": "-y" }, { ...perspective, "gaussians.low_pass": "1.5" }]) {
+      for (const more of [[], ["pixel.frac_bits=9"], ["radial.interpolate=1"], ["composite.freeze_below=0"]]) out.push({ ask: "frame", gaussians, settings, config, changes: [...changes, ...more] });
+      out.push({ ask: "cycles", gaussians, settings, config, changes });
+    }
+  for (const { name } of tables.configs) out.push({ ask: "frame", gaussians: "shells:100", settings: perspective, config: name });
+  for (const ask of ["errors", "pixel", "histogram", "terminated"]) out.push({ ask, gaussians: "shells:100", settings: perspective, config, changes, x: 1, y: 1 });
+  out.push({ ask: "frame", gaussians: "shells:9000000" }, { ask: "frame", gaussians: "none" }, { ask: "frame", gaussians: "shells:100", settings: { "gaussians.cutoff": "9" } });
   return out;
 }
 

@@ -17,8 +17,11 @@
 #include "driver/config/changed.hpp"
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/compile.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "driver/tiles/render.hpp"
+#include "golden/gaussians.hpp"
 #include "golden/render.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
 #include "scene/settings.hpp"
 
 namespace fastsplat {
@@ -93,6 +96,46 @@ TEST(LabSession, AFrameIsTheDriversAndGoldens) {
   std::printf("[figure] frames equal = %zu (limit 6)\n", frames);
 }
 
+TEST(LabSession, AFrameOfGaussiansIsTheDriversAndGoldens) {
+  lab::Session session;
+  Json asked = request("frame", with(kSmall, "camera.projection", "perspective"), "ellipse");
+  asked["gaussians"] = "shells:300";
+  asked["changes"] = {"composite.every_sample=1", "composite.freeze_below=7"};
+  const lab::Answer answer = session.answer(asked.dump());
+  const Json json = Json::parse(answer.json);
+  ASSERT_TRUE(json.contains("words_hash")) << answer.json.substr(0, 300);
+
+  scene::GaussianDescription view;
+  view.width = 40, view.height = 32;
+  view.up = scene::UpAxis::Z;
+  view.camera.projection = scene::Projection::Perspective;
+  const auto scene =
+      scene::build_gaussian_scene(view, std::make_shared<scene::GaussianCloud>(scene::load_gaussians("shells:300")));
+  const auto projected = scene::project_all(scene);
+  const std::vector<std::string> changes{"composite.every_sample=1", "composite.freeze_below=7"};
+  const driver::GaussianFrame frame(scene, projected, driver::changed(driver::load_config("ellipse"), changes));
+  const auto drawn = driver::render_gaussians(frame);
+  EXPECT_TRUE(std::equal(drawn.frame.words.begin(), drawn.frame.words.end(), answer.pictures[1].words.begin(),
+                         answer.pictures[1].words.end(),
+                         [](std::uint32_t a, std::int32_t b) { return a == static_cast<std::uint32_t>(b); }));
+  const auto report = analysis::compare(golden::render_gaussians(scene, projected), driver::to_image(drawn.frame));
+  EXPECT_EQ(json["compare"], Json::parse(analysis::to_json(report)));
+  EXPECT_EQ(json["records"], drawn.report.records);
+  EXPECT_TRUE(answer.pictures[0].encoded && answer.pictures[1].encoded);
+  EXPECT_TRUE(json["idle"].empty()) << json["idle"];
+
+  asked["settings"]["slabs.width"] = "3";
+  EXPECT_EQ(Json::parse(session.answer(asked.dump()).json)["idle"]["slabs.width"], "has no effect on 3-D Gaussians");
+  asked["ask"] = "cycles";
+  const Json cycles = Json::parse(session.answer(asked.dump()).json);
+  std::uint64_t bytes = 0;
+  frame.emit([&](std::span<const cmodel::Beat> beats) { bytes += beats.size_bytes(); });
+  EXPECT_EQ(cycles["bytes_in"], bytes) << cycles;
+  // Back to a volume: nothing of the Gaussians stays.
+  const Json after = Json::parse(session.answer(request("frame").dump()).json);
+  EXPECT_EQ(after["words_hash"], Json::parse(lab::Session().answer(request("frame").dump()).json)["words_hash"]);
+}
+
 TEST(LabSession, IdleSettingsAreLeftOutWithTheirReason) {
   lab::Session session;
   const Json plain = Json::parse(session.answer(request("frame", with(kSmall, "method", "xray")).dump()).json);
@@ -149,6 +192,11 @@ TEST(LabSession, BadRequestsAreOneLineAndTheSessionGoesOn) {
       {R"({"ask":"frame","volume":"nothing.nrrd"})", "nothing.nrrd"},
       {R"({"ask":"frame","volume":"shells:1024"})", "too large for a page"},
       {R"({"ask":"frame","settings":{"camera.azimut":"3"}})", "camera.azimuth"},
+      {R"({"ask":"frame","gaussians":"shells:9000000"})", "too large for a page"},
+      {R"({"ask":"frame","gaussians":"nothing.ply"})", "nothing.ply"},
+      {R"({"ask":"frame","gaussians":"shells:9","settings":{"gaussians.cutoff":"9"}})", "--cutoff"},
+      {R"({"ask":"frame","gaussians":"shells:9","settings":{"gaussians.up":"w"}})", "unknown axis"},
+      {R"({"ask":"errors","gaussians":"shells:9"})", "volumes only"},
       {R"({"ask":"frame","settings":{"camera.azimuth":"east"}})", "expected a finite number, got 'east'"},
       {R"({"ask":"frame","changes":["tile.width=7"]})", "tile.width"},
       {R"({"ask":"frame","toml":"x = 1"})", "configuration:1"},
@@ -165,7 +213,18 @@ TEST(LabSession, BadRequestsAreOneLineAndTheSessionGoesOn) {
     EXPECT_TRUE(answer.pictures.empty());
     EXPECT_TRUE(Json::parse(session.answer(request("frame").dump()).json).contains("words_hash")) << "after " << text;
   }
-  std::printf("[figure] refused in one line = %zu (limit 12)\n", bad.size());
+  std::printf("[figure] refused in one line = %zu (limit 17)\n", bad.size());
+}
+
+TEST(LabSession, AFileOfGaussiansThatIsTooLargeIsRefusedUnread) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "lab-huge.splat";
+  std::ofstream(file) << "x";
+  std::filesystem::resize_file(file, 500'000'000);  // sparse
+  Json asked = request("frame");
+  asked["gaussians"] = file.string();
+  const Json json = Json::parse(lab::Session().answer(asked.dump()).json);
+  EXPECT_NE(json["error"].get<std::string>().find("too large for a page"), std::string::npos) << json;
+  std::filesystem::remove(file);
 }
 
 TEST(LabSession, TheTransferFunctionAsAFileGivesTheSameWords) {

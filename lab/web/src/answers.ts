@@ -31,6 +31,11 @@ export interface Tables {
   keys: Key[];
   configs: { name: string; description: string }[];
   volumes: { name: string; size: number }[];
+  /** Built-in scenes of 3-D Gaussians, settings of their own, and a device for them. */
+  gaussians: string[];
+  gaussian_settings: Setting[];
+  gaussian_config: string;
+  gaussian_changes: Record<string, string>;
   presets: string[];
   kernels: string[];
 }
@@ -43,6 +48,8 @@ export interface PictureHead {
   channels: number;
   scale: number;
   int_bits: number;
+  /** The values are sRGB. */
+  encoded: boolean;
 }
 
 export interface Cost {
@@ -109,6 +116,8 @@ export interface Story {
 export interface Request {
   ask: "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config" | "link";
   volume?: string;
+  /** In place of the volume; "" for none. */
+  gaussians?: string;
   tf?: string;
   kernel?: string;
   settings?: Record<string, string>;

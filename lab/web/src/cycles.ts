@@ -22,6 +22,7 @@ const meanings: Record<string, string> = {
   input: "waiting for input",
   sheet_buffer: "waiting for a sheet buffer",
   map: "cull map",
+  hazard: "waiting for an overlapping window",
   drain: "emptying the pipeline",
   pixels: "writing pixels",
   output: "waiting for output",

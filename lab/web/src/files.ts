@@ -5,8 +5,10 @@ import { h } from "../../../report/web/src/dom";
 export const most_bytes = 400_000_000;
 
 export interface Taken {
-  /** Volumes, with the files that a header names; the first is the one to show. */
+  /** A volume, with the files that its header names, or Gaussians; the first is the one to show. */
   volumes: { name: string; blob: Blob }[];
+  /** Whether the first file holds 3-D Gaussians. */
+  gaussians: boolean;
   tf: string | null;
   config: string | null;
 }
@@ -19,11 +21,12 @@ function safe(name: string): string {
 const is_text = /\.toml$/i;
 /** Raw data that a header in another file names. */
 const is_data = /\.(raw|zraw|img|bin)$/i;
+const is_gaussians = /\.(ply|splat)$/i;
 const is_volume = /\.(nii|nrrd|nhdr|mha|mhd|hdr|raw|zraw|img|bin|gz)$/i;
 
 /** Reads dropped files. Throws an Error with one line about the first that cannot be used. */
 export async function taken(files: File[]): Promise<Taken> {
-  const result: Taken = { volumes: [], tf: null, config: null };
+  const result: Taken = { volumes: [], gaussians: false, tf: null, config: null };
   for (const file of files) {
     const mb = (bytes: number): string => `${Math.round(bytes / 1e6)} MB`;
     if (file.size > most_bytes) throw new Error(`${file.name}: too large for a page: at most ${mb(most_bytes)}, got ${mb(file.size)}; use the program`);
@@ -33,13 +36,14 @@ export async function taken(files: File[]): Promise<Taken> {
       const text = await file.text();
       if (/^\s*points\s*=/m.test(text) || /^\s*\[\[points\]\]/m.test(text)) result.tf = text;
       else result.config = text;
-    } else if (is_volume.test(file.name)) {
+    } else if (is_volume.test(file.name) || is_gaussians.test(file.name)) {
       result.volumes.push({ name: safe(file.name), blob: file });
     } else {
-      throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz) or .toml file`);
+      throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz), 3-D Gaussians (.ply, .splat) or a .toml file`);
     }
   }
   result.volumes.sort((a, b) => Number(is_data.test(a.name)) - Number(is_data.test(b.name)));
+  result.gaussians = is_gaussians.test(result.volumes[0]?.name ?? "");
   return result;
 }
 

@@ -3,6 +3,8 @@
 
 export interface Lab {
   volume: string;
+  /** Drawn in place of the volume; "" for none. */
+  gaussians: string;
   /** A preset's name; "" lets the program choose. */
   tf: string;
   /** A transfer function as TOML, in place of `tf`. */

@@ -10,7 +10,7 @@ const change = "k.";
 /** The address's part after the file's name. `view` is the viewer's own link. */
 export function link_of(lab: Lab, view: string): string {
   const words = new URLSearchParams({ volume: lab.volume, config: lab.config, size: `${lab.width}x${lab.height}` });
-  for (const name of ["tf", "tf_toml", "toml"] as const) if (lab[name]) words.set(name, lab[name]);
+  for (const name of ["gaussians", "tf", "tf_toml", "toml"] as const) if (lab[name]) words.set(name, lab[name]);
   if (lab.kernel !== "gauss2") words.set("kernel", lab.kernel);
   for (const [name, value] of Object.entries(lab.settings)) words.set(setting + name, value);
   for (const [name, value] of Object.entries(lab.changes)) words.set(change + name, value);

@@ -25,6 +25,7 @@ async function start(): Promise<void> {
     let notice = (_message: string): void => undefined;
     const quick = new Engine(program, files, (message) => notice(message));
     const tables = await quick.ask<Tables>("tables", { ask: "tables" });
+    tables.json.settings.push(...tables.json.gaussian_settings);
     let wrong = "";
     const linked = quick.ask<Lab>("link", link_request(location.hash)).catch((error: Error) => {
       wrong = error.message;

@@ -16,6 +16,7 @@ import { ScenePanel } from "./scene_panel";
 import type { Shelf } from "./shelf";
 import { SlowWork } from "./slow_work";
 import { Status } from "./status";
+import { name_of, shown_name, subject_of, to_subject, word_of } from "./subject";
 import { Tabs } from "./tabs";
 import { Tried } from "./tried";
 import { Turn } from "./turn";
@@ -113,7 +114,7 @@ export class Page {
         h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
       ),
     );
-    document.getElementById("foot")?.append(h("p", {}, `fastsplat ${this.tables.version}. The device runs in this page, bit for bit; nothing leaves it. Drop a volume (NIfTI, NRRD, MetaImage), a transfer function or a configuration (TOML) anywhere.`));
+    document.getElementById("foot")?.append(h("p", {}, `fastsplat ${this.tables.version}. The device runs in this page, bit for bit; nothing leaves it. Drop a volume (NIfTI, NRRD, MetaImage), 3-D Gaussians (.ply, .splat), a transfer function or a configuration (TOML) anywhere.`));
   }
 
   begin(): void {
@@ -189,7 +190,7 @@ export class Page {
     this.panes.show(frame, pictures);
     this.measures.show(shown);
     this.command.textContent = frame.command;
-    document.title = `${shown.lab.volume.replace("/files/", "")}, ${frame.config.name}: FastSplat lab`;
+    document.title = `${shown_name(subject_of(shown.lab))}, ${frame.config.name}: FastSplat lab`;
     this.slowly.show(shown);
     const root = document.documentElement;
     Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
@@ -201,7 +202,8 @@ export class Page {
   private fail(message: string, cancelled: boolean): void {
     document.documentElement.dataset.ready ??= "1";
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
-    const file = this.store.now.volume.startsWith("/files/") ? this.store.now.volume.slice("/files/".length) : "";
+    const subject = subject_of(this.store.now);
+    const file = name_of(subject).startsWith("/files/") ? shown_name(subject) : "";
     if (file && !this.shelf.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
     this.device.show_error(message);
     this.scene.show_error(message);
@@ -248,20 +250,21 @@ export class Page {
 
   private async take(list: File[]): Promise<void> {
     if (list.length === 0) return;
-    let volume = "";
+    let path = "";
     try {
-      const { volumes, tf, config } = await taken(list);
+      const { volumes, gaussians, tf, config } = await taken(list);
       if (config !== null) await this.use_config(config);
       if (volumes.length === 0 && tf === null) return;
-      if (volumes.length) volume = this.shelf.add_volume(volumes);
-      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...(volume ? { volume } : {}) };
+      if (volumes.length) path = this.shelf.add_volume(volumes);
+      const subject = path ? word_of(path, gaussians) : subject_of(this.store.now);
+      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...to_subject(this.store.now, subject, this.tables) };
       this.shelf.prepare(next);
       // Tried before it is taken: a file that cannot be read leaves everything as it is.
       await this.quick.ask("file", request_of(this.tables, next, "frame", { width: 64, height: 64 }));
-      if (volume) this.scene.add_volume(volume);
+      if (path) this.scene.add_file(subject);
       this.store.set(next);
     } catch (error) {
-      this.shelf.remove(volume);
+      this.shelf.remove(path);
       if (!(error instanceof Dropped)) this.status.show_error((error as Error).message.replaceAll("/files/", ""));
     }
   }

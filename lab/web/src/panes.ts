@@ -31,6 +31,7 @@ function plane(from: Pictures[0]): Plane {
     frac_bits: Number.isInteger(bits) ? bits : null,
     int_bits: head.int_bits < 0 ? null : head.int_bits,
     exact: head.int_bits >= 0,
+    encoded: head.encoded,
     display: maps.has(head.id),
     note,
     sha256: "",

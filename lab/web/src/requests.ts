@@ -15,7 +15,7 @@ export function tf_file(lab: Lab): string {
 }
 
 /** The engine reports which settings have no effect only of those that are given. So every setting is given, except
- *  those whose default depends on others. */
+ *  those whose default depends on others. None of these has an effect on Gaussians. */
 const only_if_changed = (name: string): boolean => name.startsWith("kernel.") || name === "crop" || name.startsWith("image.");
 
 /** The size of a picture whose larger side is at most `most`. */
@@ -26,11 +26,12 @@ export function reduced(lab: Lab, most: number): { width: number; height: number
 
 export function request_of(tables: Tables, lab: Lab, ask: Request["ask"], size: { width: number; height: number } = lab): Request {
   const settings: Record<string, string> = {};
-  for (const { name, default: value } of tables.settings) if (!only_if_changed(name)) settings[name] = value;
+  for (const { name, default: value } of tables.settings) if (lab.gaussians || !only_if_changed(name)) settings[name] = value;
   Object.assign(settings, lab.settings, { "image.width": String(size.width), "image.height": String(size.height) });
   return {
     ask,
     volume: lab.volume,
+    gaussians: lab.gaussians,
     tf: lab.tf_toml ? `/files/${tf_file(lab)}` : lab.tf,
     kernel: lab.kernel,
     settings,
@@ -47,7 +48,7 @@ export function scene_key(lab: Lab): string {
 
 /** Equal for states with the same volume and transfer function. */
 export function tf_key(lab: Lab): string {
-  return JSON.stringify([lab.volume, lab.tf, lab.tf_toml]);
+  return JSON.stringify([lab.volume, lab.gaussians, lab.tf, lab.tf_toml]);
 }
 
 export function device_key(lab: Lab): string {

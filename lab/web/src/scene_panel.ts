@@ -7,6 +7,7 @@ import { changed, type Lab, type Store } from "./lab_state";
 import { clamped, most_side } from "./link";
 import { integer_range, real_range } from "./ranges";
 import { tf_file } from "./requests";
+import { shown_name, subject_of, to_subject, word_of } from "./subject";
 
 /** Settings that have a control of their own. */
 const own = new Set(["image.width", "image.height", "camera.projection", "method"]);
@@ -36,12 +37,14 @@ const group_of = (setting: Setting): string => setting.group || "Camera";
 export class ScenePanel {
   readonly root: HTMLElement;
   private readonly controls = new Map<string, Control>();
-  private readonly volume = h("select", { id: "volume", change: () => this.store.set({ volume: this.volume.value }) });
+  private readonly volume = h("select", { id: "volume", change: () => this.store.set(to_subject(this.store.now, this.volume.value, this.tables)) });
   private readonly tf = h("select", { id: "tf", change: () => this.choose_tf(this.tf.value) });
   private readonly kernel = h("select", { id: "kernel", change: () => this.store.set({ kernel: this.kernel.value }) });
   private readonly width = h("input", { type: "number", id: "width", min: 16, max: most_side, step: 1, "aria-label": "Width in pixels", change: () => this.resize() });
   private readonly height = h("input", { type: "number", id: "height", min: 16, max: most_side, step: 1, "aria-label": "Height in pixels", change: () => this.resize() });
   private readonly reset = h("button", { type: "button", id: "reset-scene", click: () => this.store.set({ settings: {} }) }, "Reset all settings");
+  private readonly edit: HTMLButtonElement;
+  /** Subjects from files. */
   private readonly files: string[] = [];
   private last_tf_toml = "";
 
@@ -60,14 +63,15 @@ export class ScenePanel {
     const named = (name: string): HTMLElement[] => tables.settings.filter((setting) => setting.name === name).map(made);
     const row = (label: string, id: string, ...inputs: HTMLElement[]): HTMLElement => h("div", { class: "control" }, h("label", { for: id }, label), h("div", { class: "entry" }, inputs));
     const groups = [...new Set(tables.settings.filter((setting) => !own.has(setting.name)).map(group_of))].sort((a, b) => Number(b === "Camera") - Number(a === "Camera"));
+    this.edit = h("button", { type: "button", id: "edit-tf", click: edit_tf }, "Edit\u2026");
     this.fill_volumes();
     this.kernel.append(...tables.kernels.map((name) => h("option", { value: name }, name)));
     this.root = h(
       "section",
       { class: "box", id: "scene", "aria-labelledby": "scene-title" },
       h("h2", { id: "scene-title", class: "off" }, "Scene"),
-      row("Volume", "volume", this.volume, h("button", { type: "button", title: "NIfTI, NRRD or MetaImage; or drop a file on the page", click: open_file }, "Open\u2026")),
-      row("Transfer function", "tf", this.tf, h("button", { type: "button", id: "edit-tf", click: edit_tf }, "Edit\u2026")),
+      row("Volume or Gaussians", "volume", this.volume, h("button", { type: "button", title: "NIfTI, NRRD, MetaImage, .ply or .splat; or drop a file on the page", click: open_file }, "Open\u2026")),
+      row("Transfer function", "tf", this.tf, this.edit),
       ...named("method"),
       ...named("camera.projection"),
       row("Kernel", "kernel", this.kernel),
@@ -82,17 +86,18 @@ export class ScenePanel {
   }
 
   private fill_volumes(): void {
-    const { volumes } = this.tables;
+    const { volumes, gaussians } = this.tables;
     const sizes = (size: number): number[] => [...new Set([16, 32, 64, 128, size])].sort((a, b) => a - b);
     this.volume.replaceChildren(
-      ...(this.files.length ? [h("optgroup", { label: "Files" }, this.files.map((path) => h("option", { value: path }, path.replace("/files/", ""))))] : []),
+      ...(this.files.length ? [h("optgroup", { label: "Files" }, this.files.map((path) => h("option", { value: path }, shown_name(path))))] : []),
       ...volumes.map(({ name, size }) => h("optgroup", { label: name }, sizes(size).map((n) => h("option", { value: `${name}:${n}` }, `${name}, ${n}\u00b3`)))),
+      ...gaussians.map((name) => h("optgroup", { label: `${name}, 3-D Gaussians` }, [500, 2000, 10000, 50000].map((n) => h("option", { value: word_of(`${name}:${n}`, true) }, `${name}, ${n} Gaussians`)))),
     );
   }
 
   /** Offers a file that was dropped. */
-  add_volume(path: string): void {
-    if (!this.files.includes(path)) this.files.push(path);
+  add_file(subject: string): void {
+    if (!this.files.includes(subject)) this.files.push(subject);
     this.fill_volumes();
   }
 
@@ -107,8 +112,10 @@ export class ScenePanel {
   }
 
   show(lab: Lab): void {
-    if (![...this.volume.options].some((option) => option.value === lab.volume)) this.volume.prepend(h("option", { value: lab.volume }, lab.volume.replace("/files/", "")));
-    this.volume.value = lab.volume;
+    const subject = subject_of(lab);
+    if (![...this.volume.options].some((option) => option.value === subject)) this.volume.prepend(h("option", { value: subject }, shown_name(subject)));
+    this.volume.value = subject;
+    for (const one of [this.tf, this.kernel, this.edit]) one.disabled = lab.gaussians !== "";
     if (lab.tf_toml) this.last_tf_toml = lab.tf_toml;
     this.tf.replaceChildren(h("option", { value: "" }, "automatic"), ...this.tables.presets.map((name) => h("option", { value: name }, name)), ...(this.last_tf_toml ? [h("option", { value: "own" }, lab.tf_toml ? tf_file(lab) : "edited")] : []));
     this.tf.value = lab.tf_toml ? "own" : lab.tf;

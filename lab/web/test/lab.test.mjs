@@ -285,6 +285,51 @@ test("files: good, cut, foreign, empty, huge", async () => {
   await page.finish();
 });
 
+test("3-D Gaussians: built in and dropped", async () => {
+  const page = await open({ hash: small });
+  const volume = await shown_hash(page);
+  await page.click("#tab-scene");
+  await rest(page, () => page.selectOption("#volume", "gaussians shells:500"));
+  const shells = await shown_hash(page);
+  assert.notEqual(shells, volume);
+  assert.equal(await page.inputValue("#config"), "ellipse");
+  assert.match(await page.textContent("#command"), /--gaussians shells:500 --size 128 .*--engine cmodel --config ellipse --set composite\.every_sample=1/);
+  assert.equal(await hidden(page, "#error"), true, await page.textContent("#error"));
+  assert.match(await psnr(page), /^\d\d/);
+  // Settings of volumes are greyed, with the reason; Gaussians have settings of their own.
+  assert.equal(await page.isDisabled("#tf"), true);
+  assert.match(await page.textContent('.control[data-name="slabs.width"] .why'), /no effect on 3-D Gaussians/);
+  await rest(page, () => type(page, "gaussians.cutoff", 2));
+  assert.notEqual(await shown_hash(page), shells);
+  assert.match(await page.textContent("#command"), /--cutoff 2/);
+  await rest(page, () => page.click("#undo"));
+  await page.waitForFunction(() => /\d/.test(document.getElementById("cycles-actual")?.textContent ?? ""), null, { timeout: 60_000 });
+  // The link carries them.
+  const other = await open({ hash: await page.evaluate(() => location.hash) });
+  await settled(other);
+  assert.equal(await shown_hash(other), shells);
+  await other.finish();
+  // Files: a .splat of three Gaussians, one cut, and an empty .ply.
+  const splat = Buffer.alloc(96);
+  for (let i = 0; i < 3; ++i) {
+    [i, i / 2, 0, 0.4, 0.3, 0.2].forEach((value, k) => splat.writeFloatLE(value, 32 * i + 4 * k));
+    splat.set([200, 90 * i, 50, 220, 255, 128, 128, 128], 32 * i + 24);
+  }
+  await rest(page, () => page.setInputFiles("#file", save("three.splat", splat)));
+  assert.match(await page.textContent("#volume option:checked"), /three\.splat/);
+  const three = await shown_hash(page);
+  assert.notEqual(three, shells);
+  for (const [name, bytes] of [["cut.splat", splat.subarray(0, 70)], ["wrong.ply", Buffer.from("ply\nformat ascii 1.0\nend_header\n")]]) {
+    await page.evaluate(() => (document.getElementById("error").textContent = ""));
+    await page.setInputFiles("#file", save(name, bytes));
+    await page.waitForFunction((each) => document.getElementById("error").textContent.includes(each), name);
+    assert.equal(await shown_hash(page), three);
+  }
+  await rest(page, () => page.selectOption("#volume", "shells:32"));
+  assert.equal(await shown_hash(page), volume);
+  await page.finish();
+});
+
 test("a worker that dies is started again, with the files it had", async () => {
   const page = await open({ hash: small });
   await rest(page, () => page.setInputFiles("#file", save("ball.nrrd", nrrd(24))));

@@ -36,6 +36,8 @@ export interface Picture {
   /** The picture whose block holds the words, if not its own. */
   same_as?: string;
   nonfinite?: number;
+  /** Values are sRGB, as the colours of most trained Gaussians. */
+  encoded?: boolean;
   /** Text below the picture. */
   note?: string;
   /** Set if it is a window of a larger picture. */

@@ -12,14 +12,14 @@ function encoded(linear: number): number {
   return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
 }
 
-/** 8-bit sRGB for the words up to 1.0, kept for each scale: pictures of a sequence share it. */
+/** 8-bit sRGB for the words up to 1.0, kept for each scale: pictures of a sequence share it. `plain`: words are sRGB. */
 const tables = new Map<string, Uint8Array>();
 
-function looks_of(scale: number, display: boolean): Uint8Array {
+function looks_of(scale: number, plain: boolean): Uint8Array {
   const steps = Math.min(scale, 65536);
-  const key = `${steps} ${display}`;
+  const key = `${steps} ${plain}`;
   let looks = tables.get(key);
-  if (!looks) tables.set(key, (looks = Uint8Array.from({ length: steps + 1 }, (_, i) => (display ? Math.round((255 * i) / steps) : encoded(i / steps)))));
+  if (!looks) tables.set(key, (looks = Uint8Array.from({ length: steps + 1 }, (_, i) => (plain ? Math.round((255 * i) / steps) : encoded(i / steps)))));
   return looks;
 }
 
@@ -34,12 +34,12 @@ export class Plane {
     readonly picture: Picture,
     readonly words: Words,
   ) {
-    const { crop, width, height, scale, display } = picture;
+    const { crop, width, height, scale, display, encoded } = picture;
     this.x0 = crop?.x ?? 0;
     this.y0 = crop?.y ?? 0;
     this.full_width = crop?.full_width ?? width;
     this.full_height = crop?.full_height ?? height;
-    this.looks = looks_of(scale, display === true);
+    this.looks = looks_of(scale, display === true || encoded === true);
   }
 
   /** Whether the picture contains this pixel of the whole frame. */

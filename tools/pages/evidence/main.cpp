@@ -141,8 +141,10 @@ int run(const std::vector<std::string>& words) {
     Json all = std::filesystem::exists(words[1]) ? read_json(words[1]) : Json::array();
     for (std::size_t i = 3; i < words.size(); ++i) {
       Json now = design_of(words[2], words[i]);
-      if (const auto stamp = words[2] + "/" + words[i] + ".stamp"; std::filesystem::exists(stamp))
-        now.update(read_json(stamp));
+      if (const auto file = words[2] + "/" + words[i] + ".stamp"; std::filesystem::exists(file)) {
+        const Json stamp = read_json(file);
+        for (const char* key : {"date", "rtl"}) now[key] = stamp.at(key);
+      }
       const auto then = find_design(all, now);
       if (then == all.end()) {
         all.push_back(now);

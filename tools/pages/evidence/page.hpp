@@ -9,8 +9,8 @@
 namespace fastsplat::evidence {
 
 /// Reads the JSON of `folder`; the page names missing files. `now`, from tools/helpers/evidence_stamp.py, is {"rtl":
-/// {module: hash}}: each figure gets its day and the RTL modules that changed since. If `now` is null the page omits
-/// those modules. Throws std::runtime_error or nlohmann's exceptions for an invalid file.
+/// {module: hash}, "io": [module]}: each figure gets its day and the RTL modules that changed since. If `now` is null
+/// the page omits those modules. Throws std::runtime_error or nlohmann's exceptions for an invalid file.
 std::string page(const std::filesystem::path& folder, const nlohmann::ordered_json& now);
 
 }  // namespace fastsplat::evidence

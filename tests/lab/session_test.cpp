@@ -216,6 +216,32 @@ TEST(LabSession, BadRequestsAreOneLineAndTheSessionGoesOn) {
   std::printf("[figure] refused in one line = %zu (limit 17)\n", bad.size());
 }
 
+TEST(LabSession, EverySettingOfGaussiansMakesANewView) {
+  lab::Session session;
+  Json plain = request("frame", with(kSmall, "camera.projection", "perspective"), "ellipse");
+  plain["gaussians"] = "shells:200";
+  plain["changes"] = {"composite.every_sample=1", "composite.freeze_below=7"};
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, std::string>>{{"camera.azimuth", "10"},
+                                                        {"camera.elevation", "40"},
+                                                        {"camera.roll", "9"},
+                                                        {"camera.zoom", "2"},
+                                                        {"camera.projection", "orthographic"},
+                                                        {"camera.fov", "50"},
+                                                        {"image.width", "44"},
+                                                        {"image.height", "30"},
+                                                        {"gaussians.up", "x"},
+                                                        {"gaussians.low_pass", "2"},
+                                                        {"gaussians.cutoff", "2"}}) {
+    const Json before = Json::parse(session.answer(plain.dump()).json);
+    Json other = plain;
+    other["settings"][name] = value;
+    const Json after = Json::parse(session.answer(other.dump()).json);
+    EXPECT_NE(after["words_hash"], before["words_hash"]) << name;
+    EXPECT_EQ(after, Json::parse(lab::Session().answer(other.dump()).json)) << name;
+  }
+}
+
 TEST(LabSession, AFileOfGaussiansThatIsTooLargeIsRefusedUnread) {
   const auto file = std::filesystem::path(testing::TempDir()) / "lab-huge.splat";
   std::ofstream(file) << "x";

@@ -9,6 +9,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/machine_error.hpp"
+#include "base/memory.hpp"
 #include "base/number_text.hpp"
 #include "base/version.hpp"
 #include "cli/frame_names.hpp"
@@ -17,6 +18,7 @@
 #include "cli/scene_flags.hpp"
 #include "cli/video.hpp"
 #include "cli/volume_json.hpp"
+#include "scene/splat_store.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -123,7 +125,13 @@ Json to_json(const Result& result) {
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
   if (arguments.rate && arguments.video.empty()) refuse_animation("--rate", "requires --video", "add --video FILE.mp4");
+  if (arguments.keep_memory && (arguments.counters || arguments.plain || arguments.engine != "cmodel")) {
+    refuse_animation("--keep-memory", "only --engine cmodel without --counters or --plain keeps voxels",
+                     "leave --keep-memory out");
+  }
   if (!arguments.orbit && !arguments.sequence) {
+    if (arguments.keep_memory)
+      refuse_animation("--keep-memory", "requires an animation", "add --orbit A..B --frames N");
     if (arguments.frames)
       refuse_animation("--frames", "requires --orbit or --sequence", "add --orbit A..B or --sequence");
     if (!arguments.video.empty()) refuse_animation("--video", "requires an animation", "add --orbit A..B --frames N");
@@ -175,6 +183,10 @@ void check_animation(const RenderArguments& arguments, const scene::Sequence& se
   check_outputs(names);
 }
 
+std::size_t kept_bytes(const RenderArguments& arguments) {
+  return arguments.keep_memory ? static_cast<std::size_t>(*arguments.keep_memory) << 20 : machine_memory() / 4;
+}
+
 /// The scene of a frame; errors name the frame's number.
 scene::Scene scene_of(const scene::Sequence& sequence, const scene::SceneDescription& still, std::size_t frame,
                       const std::shared_ptr<const volume::Volume>& volume) {
@@ -202,8 +214,11 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   Result result;
   result.engine = to_string(renderer.engine);
   std::shared_ptr<const volume::Volume> volume;  // no track changes it
+  // A cropped volume is made anew for each frame.
+  const auto store = still.crop.everything() ? std::make_shared<scene::SplatStore>(kept_bytes(arguments)) : nullptr;
   for (std::size_t frame = 0; frame < count; ++frame) {
-    const scene::Scene scene = scene_of(sequence, still, frame, volume);
+    scene::Scene scene = scene_of(sequence, still, frame, volume);
+    scene.store = store;
     if (!volume) {
       output.remark(remarks(*scene.volume));
       check_frames(sequence, still, count, scene.whole);

@@ -28,6 +28,9 @@ void declare(Options& options, RenderArguments& to) {
   options.flag("--sequence", to.sequence, "animate as described by the scene's [sequence]");
   options.integer("--frames", to.frames, 1, scene::kMaxFrames, "N",
                   "number of frames; # in --out become their numbers, from 0");
+  options.integer("--keep-memory", to.keep_memory, 0, 1 << 20, "MIB",
+                  "cmodel: keep up to this much of the classified voxels from frame to frame (a quarter of the "
+                  "memory); same pictures, 0 is slower");
   options.word("--video", to.video, "FILE", "write the PNG frames as a video, .mp4, .mkv or .webm (requires ffmpeg)");
   options.number("--rate", to.rate, "NUMBER", "frames per second of the video (24)");
   declare_images(options, to.out, to.raw);

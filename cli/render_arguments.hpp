@@ -31,7 +31,8 @@ struct RenderArguments {
   std::optional<std::string> orbit;  ///< "A..B", degrees
   bool sequence = false;             ///< as in the scene's [sequence]
   std::optional<int> frames;
-  std::string video;           ///< empty for none
+  std::optional<int> keep_memory;  ///< MiB of classified voxels that frames share
+  std::string video;               ///< empty for none
   std::optional<double> rate;  ///< of the video, frames a second
 };
 

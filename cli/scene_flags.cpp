@@ -2,12 +2,11 @@
 #include "cli/scene_flags.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/number_text.hpp"
 #include "base/printable.hpp"
 #include "cli/names.hpp"
@@ -42,7 +41,7 @@ Size size_from(const std::string& text) {
 void check_memory(int width, int height) {
   constexpr double kBytesPerPixel = 96.0;
   const double need = kBytesPerPixel * width * height;
-  const double have = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  const auto have = static_cast<double>(machine_memory());
   if (have > 0 && need > have) {
     throw_usage({.where = "--size",
                  .what = fmt::format("an image of {}x{} needs about {:.1f} GB", width, height, need / 1e9),

@@ -32,6 +32,7 @@
 #include "lab/tables.hpp"
 #include "lab/termination.hpp"
 #include "scene/settings.hpp"
+#include "scene/splat_store.hpp"
 #include "scene/volume/volume_file.hpp"
 
 namespace fastsplat::lab {
@@ -43,6 +44,7 @@ constexpr std::int64_t kFloatScale = 1 << 16;  ///< of golden's words, as in a r
 constexpr std::uint64_t kPixelBytes = 16;      ///< four words
 constexpr std::size_t kScenes = 4;             ///< kept at most
 constexpr std::int64_t kMostVoxels = 40'000'000;
+constexpr std::size_t kStoreBytes = std::size_t{256} << 20;
 
 template <class Word>
 std::string hash_of(const std::vector<Word>& words) {
@@ -142,6 +144,7 @@ std::shared_ptr<const volume::Volume> Session::volume_of(const scene::SceneDescr
   }
   volume_.reset();
   scenes_.clear();
+  store_ = std::make_shared<scene::SplatStore>(kStoreBytes);
   volume::ReadOptions options;
   if (description.nan_as) options.nan_as = static_cast<float>(*description.nan_as);
   volume_ = std::make_shared<const volume::Volume>(volume::load_volume(description.volume, options));
@@ -158,6 +161,7 @@ Session::Kept& Session::kept(const scene::SceneDescription& description) {
     auto volume = volume_of(description);
     scenes_.insert(scenes_.begin(),
                    std::make_unique<Kept>(Kept{key, scene::build_scene(description, std::move(volume)), {}}));
+    scenes_.front()->scene.store = store_;
     if (scenes_.size() > kScenes) scenes_.pop_back();
   }
   return *scenes_.front();

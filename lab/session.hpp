@@ -72,6 +72,7 @@ class Session {
   nlohmann::ordered_json histogram(const nlohmann::ordered_json& json);
   nlohmann::ordered_json config(const nlohmann::ordered_json& json);
 
+  std::shared_ptr<scene::SplatStore> store_;  ///< of the last scene drawn
   std::string volume_key_;
   std::shared_ptr<const volume::Volume> volume_;
   std::vector<std::unique_ptr<Kept>> scenes_;  ///< the last used first

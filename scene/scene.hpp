@@ -58,6 +58,8 @@ struct SceneDescription {
   std::string volume_place{}, transfer_function_place{}, crop_place{};
 };
 
+class SplatStore;  // scene/splat_store.hpp
+
 /// Ready to render: files read, names resolved, limits checked.
 struct Scene {
   SceneDescription description;
@@ -73,6 +75,7 @@ struct Scene {
   double xray_scale = 1.0;
   std::shared_ptr<const volume::Volume> whole{};  ///< before cropping, for further calls of build_scene
   std::vector<std::string> remarks{};             ///< assumptions and oddities of the input, a sentence each
+  std::shared_ptr<SplatStore> store{};            ///< what frames of the volume share, or null
 };
 
 /// Loads a scene.toml, or a built-in scene as "demo:NAME". Unknown keys and bad values are UserErrors with file:line

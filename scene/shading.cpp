@@ -27,15 +27,15 @@ Shader::Shader(const Shading& shading, const Camera& camera, const volume::Volum
       half_(glm::normalize(light_of(camera) - camera.direction())),
       floor_(static_cast<float>(shading.gradient_floor * spread(volume) / volume.kernel_unit())) {}
 
-glm::vec3 Shader::operator()(const glm::vec3& colour, int i, int j, int k) const {
-  return (*this)(colour, gradient(volume_, i, j, k));
+Surface Shader::surface(const glm::vec3& slope) const {
+  const float length = glm::length(slope);
+  if (!(length > floor_)) return {};
+  return {.normal = slope / length, .share = floor_ > 0.0f ? std::min(1.0f, (length - floor_) / floor_) : 1.0f};
 }
 
-glm::vec3 Shader::operator()(const glm::vec3& colour, const glm::vec3& slope) const {
-  const float length = glm::length(slope);
-  if (!(length > floor_)) return colour;
-  const float share = floor_ > 0.0f ? std::min(1.0f, (length - floor_) / floor_) : 1.0f;
-  const glm::vec3 normal = slope / length;
+glm::vec3 Shader::operator()(const glm::vec3& colour, const Surface& surface) const {
+  const auto& [normal, share] = surface;
+  if (!(share > 0.0f)) return colour;
   const float facing = std::abs(glm::dot(normal, light_));
   const float glint = std::pow(std::abs(glm::dot(normal, half_)), static_cast<float>(shading_.shininess));
   const float matt = static_cast<float>(shading_.ambient) + static_cast<float>(shading_.diffuse) * facing;

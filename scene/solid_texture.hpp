@@ -14,6 +14,7 @@ struct Texture {
   TextureWhere where = TextureWhere::Pixel;
   double scale = 20.0;     ///< mm, one unit of the pattern
   double amplitude = 1.0;  ///< 0..1: how far the tint departs from white
+  bool operator==(const Texture&) const = default;
 };
 
 /// A solid pattern as a relief.

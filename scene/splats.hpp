@@ -24,6 +24,13 @@ struct Splat {
   std::uint16_t sheet;  ///< axis-aligned sheet number, 0 nearest to the eye
 };
 
+/// What no view changes of a voxel's splat.
+struct UnlitSplat {
+  glm::vec3 colour;
+  float extinction;  ///< per kernel unit, > 0
+  Surface surface;
+};
+
 /// A part of the grid in traversal order: slices first_slice..end_slice-1, 0 nearest to the eye, and in each the rows
 /// first_row..end_row-1 of its outer loop.
 struct GridPart {
@@ -40,7 +47,10 @@ enum class SplatKind { Colours, Densities };
 class VoxelSplats {
  public:
   /// The scene must outlive this object.
-  explicit VoxelSplats(const Scene& scene, SplatKind kind = SplatKind::Colours);
+  explicit VoxelSplats(const Scene& scene, SplatKind kind = SplatKind::Colours)
+      : VoxelSplats(scene, kind, Classifier(scene.transfer_function, *scene.volume)) {}
+  /// The same with the scene's classifier, whose making may visit all voxels.
+  VoxelSplats(const Scene& scene, SplatKind kind, Classifier classifier);
   /// The extinction of a splat with this value, and its material; 0: the voxel has no splat.
   float extinction(float value, Material& material) const {
     if (kind_ == SplatKind::Densities) {
@@ -56,7 +66,18 @@ class VoxelSplats {
   }
   int slice(const glm::ivec3& at) const { return ascending_ ? at[slice_axis_] : last_slice_ - at[slice_axis_]; }
   /// The splat of a voxel at `position`, with what extinction() returned.
-  Splat operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material, float extinction) const;
+  Splat operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material, float extinction) const {
+    return {.position = glm::vec3(position),
+            .emission = emission(unlit(at, position, material, extinction)),
+            .extinction = extinction,
+            .sheet = static_cast<std::uint16_t>(slice(at))};
+  }
+  // The same in two steps.
+  UnlitSplat unlit(const glm::ivec3& at, const glm::dvec3& position, const Material& material, float extinction) const;
+  glm::vec3 emission(const UnlitSplat& splat) const {
+    const glm::vec3 colour = shaded_ ? shade_(splat.colour, splat.surface) : splat.colour;
+    return glm::min(colour * splat.extinction, glm::vec3(splat.extinction));
+  }
 
  private:
   const Scene& scene_;

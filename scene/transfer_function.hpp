@@ -24,12 +24,14 @@ struct ControlPoint {
   double at = 0.0;       ///< in the domain
   glm::dvec3 colour{0};  ///< linear RGB, 0..1
   double opacity = 0.0;  ///< of one reference length of this material, 0..1 (1 is clamped to 0.9999)
+  bool operator==(const ControlPoint&) const = default;
 };
 
 struct Shading {
   bool on = false;
   double ambient = 0.3, diffuse = 0.7, specular = 0.2, shininess = 20.0;
   double gradient_floor = 0.0;  ///< gradient magnitudes below this fraction of spread() per kernel unit are not shaded
+  bool operator==(const Shading&) const = default;
 };
 
 struct TransferFunction {
@@ -39,6 +41,7 @@ struct TransferFunction {
   std::optional<double> reference_length_mm{};  ///< used instead if present, in millimetres
   std::vector<ControlPoint> points;             ///< ascending in `at`, linear between, clamped outside
   Shading shading;                              ///< preset's suggestion; scene.toml and flags override
+  bool operator==(const TransferFunction&) const = default;
 };
 
 /// `tf` in raw values and kernel units of this volume.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scene/splats.hpp"
 
@@ -42,10 +43,10 @@ std::array<Walk, 3> walk_order(const Scene& scene) {
 
 }  // namespace
 
-VoxelSplats::VoxelSplats(const Scene& scene, SplatKind kind)
+VoxelSplats::VoxelSplats(const Scene& scene, SplatKind kind, Classifier classifier)
     : scene_(scene),
       kind_(kind),
-      classify_(scene.transfer_function, *scene.volume),
+      classify_(std::move(classifier)),
       shade_(scene.shading, scene.camera, *scene.volume),
       least_(scene.volume->min),
       density_(1.0 / ((static_cast<double>(scene.volume->max) - scene.volume->min) * scene.description.slab_width)),
@@ -59,15 +60,12 @@ VoxelSplats::VoxelSplats(const Scene& scene, SplatKind kind)
   ascending_ = slices.ascending;
 }
 
-Splat VoxelSplats::operator()(const glm::ivec3& at, const glm::dvec3& position, const Material& material,
+UnlitSplat VoxelSplats::unlit(const glm::ivec3& at, const glm::dvec3& position, const Material& material,
                               float extinction) const {
-  glm::vec3 colour = material.colour;
-  if (textured_) colour *= glm::vec3(tint(scene_.description.texture, position));
-  if (shaded_) colour = shade_(colour, at.x, at.y, at.z);
-  return {.position = glm::vec3(position),
-          .emission = glm::min(colour * extinction, glm::vec3(extinction)),
-          .extinction = extinction,
-          .sheet = static_cast<std::uint16_t>(slice(at))};
+  UnlitSplat out{.colour = material.colour, .extinction = extinction, .surface = {}};
+  if (textured_) out.colour *= glm::vec3(tint(scene_.description.texture, position));
+  if (shaded_) out.surface = shade_.surface(at.x, at.y, at.z);
+  return out;
 }
 
 struct Traversal::State {

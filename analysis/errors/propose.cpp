@@ -7,17 +7,22 @@
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
+#include "base/memory.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "scene/splat_store.hpp"
 
 namespace fastsplat::analysis {
 std::uint64_t scene_hash(const scene::Scene& scene) {
   return fnv1a(content_hash(scene), scene::to_toml(scene.description));
 }
 
-Simulator::Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads)
-    : scenes_(scenes), journal_(journal), threads_(threads), golden_(scenes.size()) {
-  for (const scene::Scene& scene : scenes) hashes_.push_back(scene_hash(scene));
+Simulator::Simulator(std::vector<scene::Scene> scenes, Journal& journal, int threads)
+    : scenes_(std::move(scenes)), journal_(journal), threads_(threads), golden_(scenes_.size()) {
+  for (scene::Scene& scene : scenes_) {
+    hashes_.push_back(scene_hash(scene));
+    scene.store = std::make_shared<scene::SplatStore>(machine_memory() / 4 / scenes_.size());
+  }
 }
 
 Journal::Entry Simulator::entry(const cmodel::Config& config, std::size_t scene, bool must) {

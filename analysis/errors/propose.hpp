@@ -20,8 +20,8 @@ namespace fastsplat::analysis {
 /// Compares device and golden over some scenes. Golden is drawn once per scene, and only if a simulation needs it.
 class Simulator {
  public:
-  /// Keeps references to both.
-  Simulator(const std::vector<scene::Scene>& scenes, Journal& journal, int threads);
+  /// Keeps a reference to the journal.
+  Simulator(std::vector<scene::Scene> scenes, Journal& journal, int threads);
 
   /// The worst of all scenes by the target's figure; empty if one cannot be drawn.
   Journal::Entry worst(const cmodel::Config& config, const Target& target);
@@ -36,7 +36,7 @@ class Simulator {
  private:
   Journal::Entry entry(const cmodel::Config& config, std::size_t scene, bool must);
 
-  const std::vector<scene::Scene>& scenes_;
+  std::vector<scene::Scene> scenes_;
   Journal& journal_;
   int threads_;
   std::vector<std::uint64_t> hashes_;

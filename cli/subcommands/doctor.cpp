@@ -9,6 +9,7 @@
 
 #include "analysis/provenance.hpp"
 #include "base/images/image_file.hpp"
+#include "base/memory.hpp"
 #include "base/version.hpp"
 #include "cli/other_programs.hpp"
 #include "cli/output.hpp"
@@ -48,9 +49,7 @@ int usable_processors() {
                                                         : static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-double memory_gb() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)) / 1e9;
-}
+double memory_gb() { return static_cast<double>(machine_memory()) / 1e9; }
 
 bool is_synthetic(const std::string& name) {
   const auto names = volume::synthetic_names();

@@ -40,14 +40,16 @@ struct PlacedFootprint {
   bool counted = true;    ///< in this band; false if the footprint begins in a band above it
 };
 
-/// One record of a placed footprint, for a unit that does not count.
+/// A placed footprint for a unit that does not count.
 struct WaitingRecord {
-  SplatJob job;
+  const std::uint16_t* weights;
+  std::uint32_t at;             ///< as in PlacedFootprint
+  std::uint16_t columns, rows;  ///< SplatJob
   std::uint8_t left, right, top, bottom;  ///< the blocks its windows touch, all included
   std::uint16_t set;
   bool counted;  ///< PlacedFootprint::counted
 };
-static_assert(sizeof(WaitingRecord) <= 32, "two to a cache line");
+static_assert(sizeof(WaitingRecord) == 24);
 
 /// Whether a unit counts as the device does, or draws the same words without counters: hidden splats may then be left
 /// out.
@@ -99,14 +101,12 @@ class TileUnit final : public RecordSink {
       frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
     return frozen;
   }
-  // With Counts::None, a record may be made ahead of its sheet and left out if it is hidden by then.
-  /// Without its colour.
+  // With Counts::None, records wait for their sheets and are left out once they are hidden.
   WaitingRecord record(const PlacedFootprint& placed) const {
-    return {.job = {.weights = placed.weights,
-                    .at = placed.at,
-                    .columns = placed.across,
-                    .rows = placed.down,
-                    .colour = {}},
+    return {.weights = placed.weights,
+            .at = placed.at,
+            .columns = placed.across,
+            .rows = placed.down,
             .left = static_cast<std::uint8_t>(std::countr_zero(placed.columns)),
             .right = static_cast<std::uint8_t>(63 - std::countl_zero(placed.columns)),
             .top = static_cast<std::uint8_t>(placed.first),
@@ -114,18 +114,16 @@ class TileUnit final : public RecordSink {
             .set = placed.set,
             .counted = placed.counted};
   }
-  void set_colour(WaitingRecord& record, const std::array<std::uint32_t, 4>& colour) const {
-    for (std::size_t c = 0; c < 4; ++c) record.job.colour[c] = static_cast<std::uint16_t>(colour[c] << colour_shift_);
-  }
-  /// Draws it in the open sheet. False if it is hidden.
-  bool add(const WaitingRecord& record) {
-    const std::uint64_t columns = ((std::uint64_t{2} << record.right) - 1) & (~std::uint64_t{0} << record.left);
+  bool hidden(const WaitingRecord& record) const {
     std::uint64_t open = 0;
-    for (std::size_t by = record.top; by <= record.bottom; ++by) open |= columns & ~frozen_[by];
-    if (open == 0) return false;
-    for (std::size_t by = record.top; by <= record.bottom; ++by) dirty_[by] |= columns;
-    put(record.job, record.set);
-    return true;
+    for (std::size_t by = record.top; by <= record.bottom; ++by) open |= ~frozen_[by];
+    return (open & columns(record)) == 0;
+  }
+  /// Draws it in the open sheet. `colour` is shifted left by FastPlan::colour_shift.
+  void add(const WaitingRecord& record, const std::array<std::uint16_t, 4>& colour) {
+    for (std::size_t by = record.top; by <= record.bottom; ++by) dirty_[by] |= columns(record);
+    put({.weights = record.weights, .at = record.at, .columns = record.columns, .rows = record.rows, .colour = colour},
+        record.set);
   }
   /// Whether no later sheet changes a pixel of the box, in the tile's pixels.
   bool terminated(const PixelBox& box) const;
@@ -167,6 +165,9 @@ class TileUnit final : public RecordSink {
     bool hidden = false;               ///< it has hidden splats
   };
 
+  static std::uint64_t columns(const WaitingRecord& record) {
+    return ((std::uint64_t{2} << record.right) - 1) & (~std::uint64_t{0} << record.left);
+  }
   /// Upper bound of what `word` adds to a pixel.
   std::uint64_t product(const PlacedFootprint& placed, std::uint32_t word) const {
     return placed.weighted == 0 ? 0 : ((std::uint64_t{word} * heaviest_[placed.set]) >> dropped_) + 1;

@@ -30,6 +30,14 @@ struct DepthGrowth {
   std::int32_t half = 0;            ///< the kernel's half depth, depth steps
 };
 
+/// What a sheet takes of every splat.
+struct SheetCut {
+  const std::uint64_t* phi = nullptr;  ///< cumulative weights, 32 fraction bits; null: the whole splat
+  std::int32_t last = 0;               ///< index of the last one
+  std::int32_t near = 0, far = 0;      ///< index at the sheet's boundaries for depth 0; greater depths: less
+  std::uint32_t largest = 0;           ///< word of U 0.cf
+};
+
 /// Slabs of a frame and the kernel's cumulative weights.
 class Slices {
  public:
@@ -41,6 +49,7 @@ class Slices {
   std::int32_t boundary(int s) const { return boundary_[static_cast<std::size_t>(s)]; }
   /// Depth (kernel units from the first boundary) as a word: 2^zf steps per kernel unit.
   std::int32_t quantise_depth(double depth) const;
+  const Target& depth_target() const { return depth_; }
   /// First and last slab that a kernel centred at `depth` reaches.
   int first(std::int32_t depth) const {
     const std::int32_t front = depth - middle_;
@@ -72,6 +81,14 @@ class Slices {
   Share share(const SplatWords& whole, std::int32_t depth, int s) const {
     return between(whole, cumulative(depth, s), cumulative(depth, s + 1));
   }
+  SheetCut cut(int s) const {
+    return {.phi = phi_.data(),
+            .last = 2 * middle_,
+            .near = cut_[static_cast<std::size_t>(s)] + middle_,
+            .far = cut_[static_cast<std::size_t>(s) + 1] + middle_,
+            .largest = largest_};
+  }
+  SheetCut uncut() const { return {.largest = largest_}; }
   /// The same for consecutive slabs, starting with the first that the splat reaches. `before` is the part in front of
   /// slab s, initially 0; the call updates it for the next slab.
   Share next_share(const SplatWords& whole, std::int32_t depth, int s, SplatWords& before) const {

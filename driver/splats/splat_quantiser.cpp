@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "driver/splats/splat_quantiser.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace fastsplat::driver {
@@ -40,6 +41,27 @@ SplatQuantiser::SplatQuantiser(const scene::Scene& scene, const cmodel::Config& 
       exposed_(scene.amplitude * (is_xray(scene) ? scene.xray_scale : 1.0)) {
   if (carries_) shown_.emplace(config, scene.kernel);
   if (draws_ellipses(scene, config)) shaper_.emplace(scene);
+}
+
+CentreRule SplatQuantiser::centre_rule() const {
+  const scene::Camera& camera = scene_.camera;
+  const auto axis = [](const glm::dvec3& v) { return std::array{v.x, v.y, v.z}; };
+  const scene::ScreenPoint middle = camera.project(glm::dvec3(0.0));
+  const Target& deep = slices_.depth_target();
+  assert(position_.rounding != Target::Rounding::Up && deep.rounding == Target::Rounding::Nearest);
+  return {.forward = axis(camera.direction()),
+          .right = axis(camera.right()),
+          .down = axis(camera.down()),
+          .middle_x = middle.x,
+          .middle_y = middle.y,
+          .scale = camera.scale_at(0.0),
+          .eye = camera.eye_distance(),
+          .unit = scene_.volume->kernel_unit(),
+          .first = plan_.slabs.first,
+          .position_scale = position_.scale,
+          .position_bias = position_.rounding == Target::Rounding::Nearest ? 0.5 : 0.0,
+          .depth_scale = deep.scale,
+          .depth_bias = 0.5};
 }
 
 SplatQuantiser::Shaped SplatQuantiser::shaped(const scene::Splat& splat, std::uint32_t line,

@@ -10,6 +10,7 @@
 #include "driver/splats/ellipse_shape.hpp"
 #include "driver/splats/rounding_carry.hpp"
 #include "driver/splats/slices.hpp"
+#include "driver/splats/splat_kernel.hpp"
 #include "driver/tables/quantise.hpp"
 #include "driver/tables/radius_sets.hpp"
 #include "scene/real_splat.hpp"
@@ -63,22 +64,27 @@ class SplatQuantiser {
     double amplitude = 0.0;  ///< factor on its material
   };
   Placed place(const scene::ScreenPoint& at, int sheet, const glm::vec3& position) const {
-    const double radius = pixel_radius(scene_, at.scale);
-    Placed out{.splat = {.x = quantise_to<std::int32_t>(at.x, position_),
-                         .y = quantise_to<std::int32_t>(at.y, position_),
-                         .depth = depth(at.depth / scene_.volume->kernel_unit(), sheet),
-                         .set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(position)),
-                         .words = {}}};
-    // The set's footprint is a little wider or narrower than the splat's: scaled so that total energy is preserved.
-    const double width_ratio = radius / sets_.radius(out.splat.set);
-    out.amplitude = exposed_ * width_ratio * width_ratio;
-    return out;
+    return sized({.x = quantise_to<std::int32_t>(at.x, position_),
+                  .y = quantise_to<std::int32_t>(at.y, position_),
+                  .depth = depth(at.depth / scene_.volume->kernel_unit(), sheet),
+                  .set = 0,
+                  .words = {}},
+                 at.scale, position);
   }
-  Result coloured(const Placed& placed, const std::array<double, 4>& material) const {
-    return coloured(placed, material, [this](double value, std::size_t) { return quantise(value, whole_); });
+  /// How place() projects and rounds.
+  CentreRule centre_rule() const;
+  /// place() of a centre that place_centres() has placed: `depth` is its word where splats are sliced.
+  Placed placed(std::int32_t x, std::int32_t y, std::int32_t depth, double scale, int sheet,
+                const glm::vec3& position) const {
+    return sized({.x = x, .y = y, .depth = sliced() ? depth : this->depth(0.0, sheet), .set = 0, .words = {}}, scale,
+                 position);
+  }
+  /// round_colours() with the format of a splat's words.
+  void colour(ColourToRound* colours, std::size_t count) const {
+    round_colours(whole_.scale, static_cast<double>(whole_.to.max), colours, count);
   }
   Result operator()(const scene::RealSplat& splat) const {
-    return coloured(place(splat.at, splat.sheet, splat.place), splat.material);
+    return quantised(splat, [this](double value, std::size_t) { return quantise(value, whole_); });
   }
   Result operator()(const scene::RealSplat& splat, const RoundingCarry& carry, RoundingCarry::Line& line) const {
     return quantised(splat, [&](double value, std::size_t channel) { return carry(value, line, channel); });
@@ -115,8 +121,18 @@ class SplatQuantiser {
   }
 
  private:
+  bool sliced() const { return plan_.use == scene::SheetUse::Sliced; }
   /// `depth` in kernel units; `sheet`: of the grid.
   std::int32_t depth(double depth, int sheet) const;
+  Placed sized(const QuantisedSplat& centre, double scale, const glm::vec3& position) const {
+    const double radius = pixel_radius(scene_, scale);
+    Placed out{.splat = centre};
+    out.splat.set = sets_.nearest(radius, textures_ == nullptr ? 0 : textures_->number_of(position));
+    // The set's footprint is a little wider or narrower than the splat's: scaled so that total energy is preserved.
+    const double width_ratio = radius / sets_.radius(out.splat.set);
+    out.amplitude = exposed_ * width_ratio * width_ratio;
+    return out;
+  }
   template <class Round>
   void colour(const std::array<double, 4>& values, const Round& round, Result& out) const {
     for (std::size_t c = 0; c < 4; ++c) {

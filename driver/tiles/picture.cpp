@@ -13,9 +13,9 @@
 #include "cmodel/fast/tile_unit.hpp"
 #include "driver/splats/splat_quantiser.hpp"
 #include "driver/tiles/frame_sink.hpp"
+#include "driver/tiles/share_kernel.hpp"
 #include "driver/tiles/windows.hpp"
-#include "scene/splats.hpp"
-#include "scene/volume/bricks.hpp"
+#include "scene/splat_store.hpp"
 
 namespace fastsplat::driver {
 namespace {
@@ -24,9 +24,10 @@ constexpr int kBlocksAcross = 64;  ///< of a band: TileUnit has a bit for each
 
 /// A brick that may have a splat.
 struct Brick {
-  glm::ivec3 low{0}, high{0};  ///< voxels, both included
-  Extent box{};                ///< holds all pixels that its splats can touch
-  int sheet = 0;               ///< no splat of it reaches an earlier one
+  std::size_t number = 0;  ///< in the store
+  glm::ivec3 low{0};       ///< its first voxel
+  Extent box{};            ///< holds all pixels that its splats can touch
+  int sheet = 0;           ///< no splat of it reaches an earlier one
 };
 
 /// What all bands share.
@@ -34,23 +35,32 @@ struct Shared {
   const scene::Scene& scene;
   const FrameHead& head;
   const cmodel::fast::FrameTables& tables;
+  scene::SplatStore& store;
   scene::VoxelSplats voxels;
   SplatQuantiser quantised;
+  CentreRule centres;
   Windows windows;
   std::vector<Brick> bricks;  ///< by sheet
   int width, height;          ///< of a band, pixels
+  int reach;                  ///< sheets that a splat may reach behind its first
 
-  Shared(const scene::Scene& of, const FrameHead& frame, const cmodel::fast::FrameTables& loaded, int band_rows)
+  Shared(const scene::Scene& of, const FrameHead& frame, const cmodel::fast::FrameTables& loaded,
+         scene::SplatStore& kept, int band_rows)
       : scene(of),
         head(frame),
         tables(loaded),
-        voxels(of),
+        store(kept),
+        voxels(of, scene::SplatKind::Colours, kept.classifier()),
         quantised(of, frame.config, frame.sets, frame.slices, frame.plan, frame.pictures()),
+        centres(quantised.centre_rule()),
         windows(frame.config, frame.sets),
         width(std::min(frame.grid.image_width, kBlocksAcross * frame.config.lanes)),
-        height((band_rows + frame.config.lanes - 1) / frame.config.lanes * frame.config.lanes) {
-    for (const volume::Brick& brick : volume::bricks_of(*scene.volume))
-      if (!voxels.transparent(brick.least, brick.greatest)) bricks.push_back(bounded(brick));
+        height((band_rows + frame.config.lanes - 1) / frame.config.lanes * frame.config.lanes),
+        reach(frame.sliced() ? frame.slices.reach() : 0) {
+    for (std::size_t number = 0; number < store.bricks().size(); ++number) {
+      const volume::Brick& brick = store.bricks()[number];
+      if (!voxels.transparent(brick.least, brick.greatest)) bricks.push_back(bounded(brick, number));
+    }
     std::ranges::stable_sort(bricks, {}, &Brick::sheet);
   }
 
@@ -71,8 +81,8 @@ struct Shared {
 
  private:
   /// Projected boxes are the hulls of their projected corners, and words are monotonic in what they round.
-  Brick bounded(const volume::Brick& brick) const {
-    Brick out{.low = brick.low, .high = brick.high};
+  Brick bounded(const volume::Brick& brick, std::size_t number) const {
+    Brick out{.number = number, .low = brick.low};
     std::array<SplatQuantiser::Placed, 8> corners;
     std::uint32_t widest = 0;
     std::int32_t depth = std::numeric_limits<std::int32_t>::max();
@@ -122,118 +132,131 @@ class BandPainter {
         bricks_.push_back(&brick);
     }
     unit_.begin_band(band_, true, 0);
-    active_.clear();
     std::size_t next = 0;
     std::uint32_t sheets = 0;
-    for (std::size_t sheet = 0; sheet < waiting_.size() && unit_.sound(); ++sheet) {
+    for (int sheet = 0; sheet < static_cast<int>(waiting_.size()) && unit_.sound(); ++sheet) {
       unit_.begin_sheet({static_cast<std::uint32_t>(sheet)});
-      for (; next < bricks_.size() && bricks_[next]->sheet <= static_cast<int>(sheet); ++next) open(*bricks_[next]);
-      drawn_ = false;
-      const int open_sheet = static_cast<int>(sheet);
-      for (std::size_t i = 0; i < active_.size();) {
-        if (draw(active_[i], open_sheet)) {
-          ++i;
-          continue;
-        }
-        // Any order will do: sums do not depend on it.
-        active_[i] = active_.back();
-        active_.pop_back();
-      }
-      for (Waiting& splat : waiting_[sheet])
-        if (draw(splat, open_sheet)) active_.push_back(splat);
-      recycle(waiting_[sheet]);
-      if (!drawn_) continue;
+      for (; next < bricks_.size() && bricks_[next]->sheet <= sheet; ++next) open(*bricks_[next]);
+      bool drawn = false;
+      for (int first = std::max(0, sheet - shared_.reach); first <= sheet; ++first)
+        drawn = draw_shares(first, sheet) || drawn;
+      if (sheet >= shared_.reach) recycle(waiting_[static_cast<std::size_t>(sheet - shared_.reach)]);
+      if (!drawn) continue;
       unit_.end_sheet({static_cast<std::uint32_t>(sheet), 0});
       ++sheets;
     }
+    for (Splats& splats : waiting_) recycle(splats);
     unit_.end_tile({band_.tile, sheets});
     return unit_.sound();
   }
   const cmodel::Counters& counters() const { return unit_.counters(); }
 
  private:
-  /// A splat before its first sheet, and until its last.
-  struct Waiting {
-    cmodel::fast::WaitingRecord record;
-    SplatWords words;
-    std::int32_t depth, last_sheet;
-  };
-  using Splats = std::vector<Waiting>;
+  using Splats = std::vector<WaitingSplat>;
   static constexpr std::size_t kRoom = 1024;  ///< splats of a sheet for which memory is taken at once
 
+  /// A brick's splats as words: centres, with room for whole vectors.
+  struct Centres {
+    std::vector<std::int32_t> x, y, depth;
+    std::vector<double> scale;
+    void resize(std::size_t count) {
+      for (auto* words : {&x, &y, &depth}) words->resize(count + kMoreCentres);
+      scale.resize(count + kMoreCentres);
+    }
+  };
+  /// A splat that can be seen.
+  struct Seen {
+    cmodel::fast::WaitingRecord record;
+    std::int32_t depth;
+  };
+
+  /// Splats of the brick that can be seen wait for their sheets.
   void open(const Brick& brick) {
     const cmodel::PixelBox box{brick.box.x0 - band_.x, brick.box.y0 - band_.y, brick.box.x1 - band_.x,
                                brick.box.y1 - band_.y};
     if (unit_.terminated(box)) return;
-    const volume::Volume& volume = *shared_.scene.volume;
-    for (int k = brick.low.z; k <= brick.high.z; ++k) {
-      for (int j = brick.low.y; j <= brick.high.y; ++j) {
-        const float* row = &volume.voxels[volume.index(0, j, k)];
-        for (int i = brick.low.x; i <= brick.high.x; ++i) {
-          scene::Material material;
-          const float extinction = shared_.voxels.extinction(row[i], material);
-          if (extinction > 0.0f) begin({i, j, k}, material, extinction);
-        }
-      }
+    const scene::BrickSplats& splats = shared_.store.splats(shared_.voxels, brick.number, scratch_);
+    centres_.resize(splats.splats.size());
+    place_centres(shared_.centres, {splats.row(0), splats.row(1), splats.row(2)}, splats.splats.size(),
+                  centres_.x.data(), centres_.y.data(), centres_.depth.data(), centres_.scale.data());
+    if (seen_.size() < splats.splats.size()) {
+      seen_.resize(splats.splats.size());
+      colours_.resize(splats.splats.size());
     }
-  }
-  /// Places a voxel's splat; if it can be seen, its shares wait for their sheets.
-  void begin(const glm::ivec3& at, const scene::Material& material, float extinction) {
-    const glm::dvec3 position = shared_.scene.volume->position(at.x, at.y, at.z);
-    const glm::vec3 rounded(position);
-    const SplatQuantiser::Placed placed =
-        shared_.quantised.place(shared_.scene.camera.project(glm::dvec3(rounded)), shared_.voxels.slice(at), rounded);
-    cmodel::SnappedAxis x = shared_.windows.snapped(placed.splat.x, placed.splat.set),
-                        y = shared_.windows.snapped(placed.splat.y, placed.splat.set);
-    x.origin -= band_.x;
-    y.origin -= band_.y;
-    cmodel::fast::PlacedFootprint footprint = unit_.place(placed.splat.set, x, y);
-    if (footprint.weighted == 0 || unit_.hidden(footprint)) return;
-    const scene::Splat splat = shared_.voxels(at, position, material, extinction);
-    const SplatQuantiser::Result result =
-        shared_.quantised.coloured(placed, {splat.emission.x, splat.emission.y, splat.emission.z, splat.extinction});
-    footprint.counted = shared_.band_of(placed.splat) == static_cast<int>(band_.tile);
-    if (footprint.counted) count(result);
-    const QuantisedSplat& whole = result.splat;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < splats.splats.size(); ++i) {
+      const auto& [splat, at] = splats.splats[i];
+      const SplatQuantiser::Placed placed = shared_.quantised.placed(
+          centres_.x[i], centres_.y[i], centres_.depth[i], centres_.scale[i],
+          shared_.voxels.slice(brick.low + glm::ivec3(at[0], at[1], at[2])), splats.position(i));
+      cmodel::SnappedAxis x = shared_.windows.snapped(placed.splat.x, placed.splat.set),
+                          y = shared_.windows.snapped(placed.splat.y, placed.splat.set);
+      x.origin -= band_.x;
+      y.origin -= band_.y;
+      cmodel::fast::PlacedFootprint footprint = unit_.place(placed.splat.set, x, y);
+      if (footprint.weighted == 0 || unit_.hidden(footprint)) continue;
+      footprint.counted = shared_.band_of(placed.splat) == static_cast<int>(band_.tile);
+      seen_[seen].record = unit_.record(footprint);
+      seen_[seen].depth = placed.splat.depth;
+      const glm::vec3 emission = shared_.voxels.emission(splat);
+      colours_[seen].material = {emission.x, emission.y, emission.z, splat.extinction};
+      colours_[seen].amplitude = placed.amplitude;
+      ++seen;
+    }
+    shared_.quantised.colour(colours_.data(), seen);
     const FrameHead& head = shared_.head;
-    if (whole.words == SplatWords{}) return;  // it vanished
-    const int first = head.sliced() ? head.slices.first(whole.depth) : whole.depth,
-              last = head.sliced() ? head.slices.last(whole.depth) : whole.depth;
-    wait({unit_.record(footprint), whole.words, whole.depth, last}, first);
-  }
-  /// Draws its share of the sheet. False if no later sheet needs it.
-  bool draw(Waiting& splat, int sheet) {
-    const Slices& slices = shared_.head.slices;
-    const Share share =
-        shared_.head.sliced() ? slices.share(splat.words, splat.depth, sheet) : slices.whole(splat.words);
-    if (!share.empty()) {
-      unit_.set_colour(splat.record, share.words);
-      if (!unit_.add(splat.record)) return false;
-      drawn_ = true;
-      result_->report.splat_records += splat.record.counted ? 1 : 0;
-      result_->report.saturated_records += share.saturated && splat.record.counted ? 1 : 0;
+    for (std::size_t i = 0; i < seen; ++i) {
+      const std::int32_t depth = seen_[i].depth;
+      if (seen_[i].record.counted) count(colours_[i]);
+      if (colours_[i].empty()) continue;  // it vanished
+      WaitingSplat& splat = wait(head.sliced() ? head.slices.first(depth) : depth);
+      splat.record = seen_[i].record;
+      splat.words = colours_[i].words;
+      splat.depth = depth;
+      splat.last_sheet = head.sliced() ? head.slices.last(depth) : depth;
     }
-    return splat.last_sheet > sheet;
   }
-  void count(const SplatQuantiser::Result& one) {
+  /// Draws the shares of the splats that begin in `first` in the sheet. False if there are none.
+  bool draw_shares(int first, int sheet) {
+    Splats& splats = waiting_[static_cast<std::size_t>(first)];
+    std::erase_if(splats, [&](const WaitingSplat& splat) {
+      return splat.last_sheet < sheet || unit_.hidden(splat.record);
+    });
+    const Slices& slices = shared_.head.slices;
+    if (shares_.size() < splats.size()) shares_.resize(splats.size());
+    share_out(shared_.head.sliced() ? slices.cut(sheet) : slices.uncut(), shared_.tables.plan.colour_shift,
+              splats.data(), splats.size(), shares_.data());
+    bool drawn = false;
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      if (shares_[i].empty) continue;
+      unit_.add(splats[i].record, shares_[i].words);
+      drawn = true;
+      if (!splats[i].record.counted) continue;
+      ++result_->report.splat_records;
+      result_->report.saturated_records += shares_[i].saturated ? 1 : 0;
+    }
+    return drawn;
+  }
+  void count(const ColourToRound& one) {
     DriverReport& report = result_->report;
     ++report.voxels;
     result_->asked += one.asked;
-    if (one.splat.words != SplatWords{}) {
+    if (!one.empty()) {
       report.saturated_voxels += one.saturated ? 1 : 0;
       return;
     }
     ++report.vanished_voxels;
     result_->lost += one.asked;
   }
-  void wait(const Waiting& splat, int sheet) {
+  /// A place for a splat that begins in the sheet.
+  WaitingSplat& wait(int sheet) {
     Splats& splats = waiting_[static_cast<std::size_t>(sheet)];
     if (splats.capacity() == 0) {
       if (spare_.empty()) spare_.emplace_back().reserve(kRoom);
       splats = std::move(spare_.back());
       spare_.pop_back();
     }
-    splats.push_back(splat);
+    return splats.emplace_back();
   }
   /// Keeps the memory of a sheet that is done for one to come.
   void recycle(Splats& splats) {
@@ -248,8 +271,11 @@ class BandPainter {
   std::vector<const Brick*> bricks_;  ///< that meet the band, by sheet
   std::vector<Splats> waiting_;       ///< by their first sheet
   std::vector<Splats> spare_;
-  Splats active_;  ///< that reach the open sheet and were drawn in an earlier one
-  bool drawn_ = false;
+  std::vector<SheetColour> shares_;   ///< of the splats being drawn
+  scene::BrickSplats scratch_;
+  Centres centres_;                     ///< of the brick being opened
+  std::vector<Seen> seen_;              ///< its splats that can be seen
+  std::vector<ColourToRound> colours_;  ///< theirs
   VisitedBand* result_ = nullptr;
 };
 
@@ -298,7 +324,10 @@ bool draws_pictures(const scene::Scene& scene, const FrameHead& head) {
 std::optional<Picture> draw_picture(const scene::Scene& scene, const FrameHead& head,
                                     const cmodel::fast::FrameTables& tables, int band_rows, int threads,
                                     const Progress& progress) {
-  const Shared shared(scene, head, tables, band_rows);
+  scene::SplatStore nothing_kept(0);
+  scene::SplatStore& store = scene.store ? *scene.store : nothing_kept;
+  store.open(scene);
+  const Shared shared(scene, head, tables, store, band_rows);
   return tables.plan.narrow ? draw_bands<std::uint16_t>(shared, threads, progress)
                             : draw_bands<std::uint32_t>(shared, threads, progress);
 }

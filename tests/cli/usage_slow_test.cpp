@@ -143,6 +143,12 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"rate_of_an_orbit_without_video",
                {"render", "--orbit", "0..90", "--frames", "3", "--rate", "12", "-o", "a.#.png"},
                {"--rate", "--video"}},
+        Misuse{"memory_of_a_still",
+               {"render", "--engine", "cmodel", "--keep-memory", "12", "-o", "a.png"},
+               {"--keep-memory", "--orbit"}},
+        Misuse{"memory_of_golden",
+               {"render", "--orbit", "0..90", "--frames", "3", "--keep-memory", "12", "-o", "a.#.png"},
+               {"--keep-memory", "--engine cmodel"}},
         Misuse{"number_of_a_still", {"render", "-o", "g#.png"}, {"g#.png", "--orbit", "remove the #"}},
         Misuse{
             "number_of_a_still_raw", {"render", "--engine", "cmodel", "--raw", "g#.exr"}, {"g#.exr", "remove the #"}},

@@ -6,6 +6,7 @@
 
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
+#include "scene/splat_store.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
 namespace fastsplat::driver {
@@ -73,6 +74,42 @@ TEST(Picture, CountsASplatInOneBand) {
   EXPECT_GT(both.picture.report.vanished_voxels, 0U);
   EXPECT_EQ(both.picture.report.vanished_voxels, both.counted.report.vanished_voxels);
   EXPECT_NEAR(both.picture.report.vanished_share, both.counted.report.vanished_share, 1e-12);  // sums of 64 bits
+}
+
+// Frames that share a store: views, methods and devices change, and the store may be too small.
+TEST(Picture, IsTheSameFromAStore) {
+  std::size_t frames = 0, different = 0;
+  for (const std::size_t room : {std::size_t{200'000}, std::size_t{1} << 30}) {
+    const auto store = std::make_shared<scene::SplatStore>(room);
+    for (const auto method : {scene::Method::ImageAligned, scene::Method::AxisAligned}) {
+      for (const char* name : {"base", "compact"}) {
+        for (const double azimuth : {10.0, 100.0, 235.0}) {
+          for (const auto projection : {scene::Projection::Orthographic, scene::Projection::Perspective}) {
+            auto description = view_of("shells:40", 72);
+            description.method = method;
+            description.camera.azimuth = azimuth;
+            description.camera.projection = projection;
+            scene::Scene scene = scene::build_scene(description);
+            const auto alone = render(scene, load_config(name), {.threads = 1, .counters = false, .band_rows = 8});
+            scene.store = store;
+            const auto shared = render(scene, load_config(name), {.threads = 2, .counters = false, .band_rows = 8});
+            EXPECT_FALSE(shared.counted);
+            ++frames;
+            different += alone.frame.words == shared.frame.words &&
+                                 alone.report.splat_records == shared.report.splat_records &&
+                                 alone.report.voxels == shared.report.voxels
+                             ? 0
+                             : 1;
+          }
+        }
+      }
+    }
+    figure("bytes kept", static_cast<double>(store->bytes()));
+    EXPECT_GT(store->bytes(), 0U);
+  }
+  figure("frames", static_cast<double>(frames));
+  figure("frames that differ", static_cast<double>(different));
+  EXPECT_EQ(different, 0U);
 }
 
 // Losses of visible pixels are reported as they are with counters.

@@ -38,7 +38,8 @@ class Light : public ::testing::Test {
   }
   static glm::vec3 shade(const volume::Volume& volume, Shading shading) {
     const Camera camera({.azimuth = 0.0, .elevation = 0.0}, volume, 1.0, 10, 10);
-    return Shader(shading, camera, volume)(glm::vec3(0.5f), 2, 2, 2);
+    const Shader shader(shading, camera, volume);
+    return shader(glm::vec3(0.5f), shader.surface(2, 2, 2));
   }
   Shading shading_{
       .on = true, .ambient = 0.25, .diffuse = 0.75, .specular = 0.0, .shininess = 10.0, .gradient_floor = 0.0};

@@ -25,7 +25,7 @@ double beyond_linear(double tau, double dims, double error) {
 }  // namespace
 
 BoundBand::BoundBand(const stages::Chain& chain, const stages::Mixture& known, const Roundings& roundings,
-                     const std::vector<stages::StagedSplat>& splats, golden::Rows rows, int width)
+                     std::span<const stages::StagedSplat> splats, golden::Rows rows, int width)
     : chain_(chain),
       known_(known),
       r_(roundings),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "analysis/errors/bound.hpp"
@@ -36,7 +37,7 @@ class BoundBand {
   /// Keeps references. `splats`: of the known mixture, binned by the sheet before their first one if depths are open
   /// ("lead" 1).
   BoundBand(const stages::Chain& chain, const stages::Mixture& known, const Roundings& roundings,
-            const std::vector<stages::StagedSplat>& splats, golden::Rows rows, int width);
+            std::span<const stages::StagedSplat> splats, golden::Rows rows, int width);
 
   void run(const stages::BandBins& bins, int band);
   const std::vector<Sums>& greatest() const { return greatest_; }         ///< row by row
@@ -91,7 +92,7 @@ class BoundBand {
   const stages::Chain& chain_;
   const stages::Mixture& known_;
   const Roundings& r_;
-  const std::vector<stages::StagedSplat>& splats_;
+  std::span<const stages::StagedSplat> splats_;
   golden::Rows rows_;
   int width_, sheets_;
   bool xray_, additive_;

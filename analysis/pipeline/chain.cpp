@@ -2,6 +2,7 @@
 #include "analysis/pipeline/chain.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "analysis/pipeline/add_products.hpp"
 #include "analysis/pipeline/add_to_sheets.hpp"
@@ -133,7 +134,10 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
   // If nothing is rounded up to step sheet, the order of the factors is free, and golden's is used.
   const bool golden_units = mixture.real(Step::Position, Step::Sheet);
   const int width = scene_.description.width, height = scene_.description.height;
-  const Staged splats = steps_.staged(list_, mixture, golden_units, threads);
+  Staged splats = steps_.staged(list_, mixture, golden_units, threads, [this] {
+    const std::scoped_lock lock(guard_);
+    return std::exchange(memory_, {});
+  }());
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const BandBins bins(
       bands, steps_.sheets(), splats.splats.size(), threads,
@@ -158,6 +162,8 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
       draw(Band(*this, mixture, splats, golden_units, rows, width));
     }
   });
+  const std::scoped_lock lock(guard_);
+  memory_ = std::move(splats);
   return picture;
 }
 

@@ -3,6 +3,7 @@
 // device the integer model's, bit for bit. Words are exact in a double, so one chain serves both (docs/errors.md).
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Chain {
   SplatSteps steps_;
   SplatList list_;
   std::optional<DensitySteps> densities_;  ///< only if the sheets hold densities
+  mutable std::mutex guard_;
+  mutable Staged memory_;  ///< of the frame before: the next one needs as much
 };
 
 }  // namespace fastsplat::stages

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/parallel/parallel.hpp"
 #include "driver/splats/projection.hpp"
@@ -189,14 +190,15 @@ StagedShape SplatSteps::shape(const scene::Splat& voxel, const scene::RealSplat&
   return out;
 }
 
-Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads) const {
+Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads,
+                          Staged memory) const {
   const bool emission = mixture.device(Step::Emission), depth = mixture.device(Step::Depth);
   const double unit_value =
       golden_units ? golden::cell_density(scene_) : scene_.amplitude * (xray_ ? scene_.xray_scale : 1.0);
   std::optional<driver::RoundingCarry> carry;
   if (emission && quantiser_.carries()) carry.emplace(quantiser_.carry(0, list.rows, list.columns));
 
-  Staged out;
+  Staged out = std::move(memory);
   out.splats.resize(list.splats.size());
   if (shaped()) out.shapes.resize(list.splats.size());
   const auto stage = [&](std::size_t i) {

@@ -8,6 +8,7 @@
 
 #include "analysis/pipeline/real_narrowing.hpp"
 #include "analysis/pipeline/step.hpp"
+#include "base/uninitialised.hpp"
 #include "driver/splats/slices.hpp"
 #include "driver/splats/splat_quantiser.hpp"
 #include "driver/tables/radius_sets.hpp"
@@ -46,7 +47,7 @@ struct StagedShape {
 };
 
 struct Staged {
-  std::vector<StagedSplat> splats;
+  Uninitialised<StagedSplat> splats;
   std::vector<StagedShape> shapes;  ///< one for each splat; empty in a frame of circles
   const StagedShape* shape(std::size_t i) const { return shapes.empty() ? nullptr : &shapes[i]; }
 };
@@ -80,7 +81,9 @@ class SplatSteps {
   /// In the order of the list. With `golden_units`, values are golden's: material times density, without the kernel's
   /// peak, which golden's weights contain. Otherwise they are the device's, with the X-ray exposure. Values of
   /// densities are fractions of the volume's range over the slabs' width, in golden's units the volume's own.
-  Staged staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads) const;
+  /// The result is in `memory`, that of a frame before.
+  Staged staged(const SplatList& list, const Mixture& mixture, bool golden_units, int threads,
+                Staged memory = {}) const;
 
   /// The splat's share in each sheet, from splat.first on.
   void shares(const StagedSplat& splat, const Mixture& mixture, std::vector<golden::Sums>& out,

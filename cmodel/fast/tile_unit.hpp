@@ -49,7 +49,7 @@ struct WaitingRecord {
   std::uint16_t set;
   bool counted;  ///< PlacedFootprint::counted
 };
-static_assert(sizeof(WaitingRecord) == 24);
+static_assert(sizeof(WaitingRecord) <= 24);
 
 /// Whether a unit counts as the device does, or draws the same words without counters: hidden splats may then be left
 /// out.

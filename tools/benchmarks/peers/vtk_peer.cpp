@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "scene/splat_store.hpp"
 #include "tools/benchmarks/peers/filtered_volume.hpp"
 #include "tools/benchmarks/peers/peer_main.hpp"
 #include "tools/benchmarks/peers/same_picture.hpp"
@@ -67,6 +69,18 @@ void device_frame(benchmark::State& state, const Subject& subject, const std::st
   const cmodel::Config device = driver::load_config(config);
   for (auto _ : state)
     benchmark::DoNotOptimize(driver::render(scene(subject), device, {.threads = 1, .counters = counters}).frame);
+}
+
+/// A picture after another of the same volume, as in an animation.
+void device_later_frame(benchmark::State& state, const Subject& subject, const std::string& config) {
+  const cmodel::Config device = driver::load_config(config);
+  static std::map<std::string, std::shared_ptr<scene::SplatStore>> stores;
+  auto& store = stores[subject.volume];
+  scene::Scene later = scene(subject);
+  later.store = store ? store : store = std::make_shared<scene::SplatStore>(std::size_t{4} << 30);
+  const auto draw = [&] { return driver::render(later, device, {.threads = 1, .counters = false}); };
+  draw();
+  for (auto _ : state) benchmark::DoNotOptimize(draw().frame);
 }
 
 /// Compares two pictures as a line of the results; throws below either minimum.
@@ -189,6 +203,7 @@ void register_frames(const Subject& subject) {
   line("golden", [subject](benchmark::State& state) { golden_frame(state, subject); });
   for (const std::string config : {"base", "compact"}) {
     line(config, [subject, config](benchmark::State& state) { device_frame(state, subject, config, false); });
+    line(config + "-later", [subject, config](benchmark::State& state) { device_later_frame(state, subject, config); });
     line(config + "-counted", [subject, config](benchmark::State& state) { device_frame(state, subject, config, true); });
   }
 }

@@ -26,10 +26,10 @@ struct Row {
 constexpr Row kRows[] = {
     {"head 512², shaded: `base` / VTK's first frame", "base/head512", "vtk-first/head512", Goal::AtMost, 1.0},
     {"head 512², shaded: `compact` / VTK's first frame", "compact/head512", "vtk-first/head512", Goal::AtMost, 0.9},
-    {"head 512², shaded: `base` / VTK's later ones", "base/head512", "vtk/head512", Goal::AtMost, 1.5},
-    {"head 512², shaded: `compact` / VTK's later ones", "compact/head512", "vtk/head512", Goal::AtMost, 1.2},
+    {"head 512², shaded: `base` / VTK's later ones", "base-later/head512", "vtk/head512", Goal::AtMost, 1.5},
+    {"head 512², shaded: `compact` / VTK's later ones", "compact-later/head512", "vtk/head512", Goal::AtMost, 1.2},
     {"shells 256³, 512², shaded: `base` / VTK's first frame", "base/shells256", "vtk-first/shells256", Goal::AtMost, 0.9},
-    {"shells 256³, 512², shaded: `base` / VTK's later ones", "base/shells256", "vtk/shells256", Goal::AtMost, 1.5},
+    {"shells 256³, 512², shaded: `base` / VTK's later ones", "base-later/shells256", "vtk/shells256", Goal::AtMost, 1.5},
     {"head 512², `base`: with counters / without", "base-counted/head512", "base/head512", Goal::AtLeast, 3},
     {"X-ray of the head, 512²: GL (16 bits), drawing / `base`, whole frame", "gl16/draw", "fast/frame/base",
      Goal::AtLeast, 25},

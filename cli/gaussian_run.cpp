@@ -36,7 +36,8 @@ void check(const RenderArguments& arguments, Engine engine) {
     refuse("--order", "the device supports one order only, that of its records",
            "add --engine golden, or leave it out");
   if (arguments.orbit || arguments.sequence || arguments.frames || arguments.keep_memory)
-    refuse("--orbit, --sequence, --frames, --keep-memory", "animations support volumes only", "render stills with --azimuth");
+    refuse("--orbit, --sequence, --frames, --keep-memory", "animations support volumes only",
+           "render stills with --azimuth");
   if (!arguments.save_scene.empty()) refuse("--save-scene", "a scene.toml describes volumes; " + none, "leave it out");
   if (arguments.plain && engine == Engine::Golden)
     refuse("--plain", "the golden renderer has one method for 3-D Gaussians", "add --engine cmodel, or leave it out");

@@ -2,6 +2,7 @@
 #include "cli/scene_flags.hpp"
 
 #include <fmt/format.h>
+
 #include <cmath>
 #include <vector>
 

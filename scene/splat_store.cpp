@@ -33,7 +33,8 @@ void fill(BrickSplats& out, const volume::Volume& volume, const VoxelSplats& vox
   const std::size_t pitch = out.splats.size() + BrickSplats::kMore;
   out.positions.assign(3 * pitch, 0.0f);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    std::copy_n(rows[axis].begin(), out.splats.size(), out.positions.begin() + static_cast<std::ptrdiff_t>(axis * pitch));
+    std::copy_n(rows[axis].begin(), out.splats.size(),
+                out.positions.begin() + static_cast<std::ptrdiff_t>(axis * pitch));
 }
 
 }  // namespace

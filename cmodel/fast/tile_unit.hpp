@@ -43,8 +43,8 @@ struct PlacedFootprint {
 /// A placed footprint for a unit that does not count.
 struct WaitingRecord {
   const std::uint16_t* weights;
-  std::uint32_t at;             ///< as in PlacedFootprint
-  std::uint16_t columns, rows;  ///< SplatJob
+  std::uint32_t at;                       ///< as in PlacedFootprint
+  std::uint16_t columns, rows;            ///< SplatJob
   std::uint8_t left, right, top, bottom;  ///< the blocks its windows touch, all included
   std::uint16_t set;
   bool counted;  ///< PlacedFootprint::counted

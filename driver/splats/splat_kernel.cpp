@@ -53,8 +53,7 @@ void colours(double scale, double largest, ColourToRound* colours, std::size_t c
   const hn::CappedTag<double, 4> four;  // or fewer lanes
   const hn::Rebind<float, decltype(four)> floats;
   const hn::Rebind<std::int32_t, decltype(four)> integers;
-  const auto half = hn::Set(four, 0.5), by = hn::Set(four, scale), most = hn::Set(four, largest),
-             zero = hn::Zero(four);
+  const auto half = hn::Set(four, 0.5), by = hn::Set(four, scale), most = hn::Set(four, largest), zero = hn::Zero(four);
   for (ColourToRound* one = colours; one != colours + count; ++one) {
     const auto amplitude = hn::Set(four, one->amplitude);
     double values[4];

@@ -219,9 +219,8 @@ class BandPainter {
   /// Draws the shares of the splats that begin in `first` in the sheet. False if there are none.
   bool draw_shares(int first, int sheet) {
     Splats& splats = waiting_[static_cast<std::size_t>(first)];
-    std::erase_if(splats, [&](const WaitingSplat& splat) {
-      return splat.last_sheet < sheet || unit_.hidden(splat.record);
-    });
+    std::erase_if(splats,
+                  [&](const WaitingSplat& splat) { return splat.last_sheet < sheet || unit_.hidden(splat.record); });
     const Slices& slices = shared_.head.slices;
     if (shares_.size() < splats.size()) shares_.resize(splats.size());
     share_out(shared_.head.sliced() ? slices.cut(sheet) : slices.uncut(), shared_.tables.plan.colour_shift,
@@ -271,7 +270,7 @@ class BandPainter {
   std::vector<const Brick*> bricks_;  ///< that meet the band, by sheet
   std::vector<Splats> waiting_;       ///< by their first sheet
   std::vector<Splats> spare_;
-  std::vector<SheetColour> shares_;   ///< of the splats being drawn
+  std::vector<SheetColour> shares_;  ///< of the splats being drawn
   scene::BrickSplats scratch_;
   Centres centres_;                     ///< of the brick being opened
   std::vector<Seen> seen_;              ///< its splats that can be seen

@@ -90,9 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"texture_at_pixels_of_axis_sheets",
                {"render", "--volume", "point:4", "--texture", "wood", "--method", "axis_aligned", "-o", "a.exr"},
                {"texture.where", "--texture-where voxel"}},
-        Misuse{"post_on_device",
-               {"render", "--engine", "cmodel", "--classify", "post", "--volume", "point:4", "--size", "8", "-o", "a.exr"},
-               {"--classify:", "--engine golden"}},
+        Misuse{
+            "post_on_device",
+            {"render", "--engine", "cmodel", "--classify", "post", "--volume", "point:4", "--size", "8", "-o", "a.exr"},
+            {"--classify:", "--engine golden"}},
         Misuse{"antialias_on_device",
                {"render", "--engine", "cmodel", "--antialias", "on", "--volume", "point:4", "-o", "a.exr"},
                {"--antialias:", "--engine golden"}},

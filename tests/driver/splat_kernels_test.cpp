@@ -140,7 +140,8 @@ TEST(SplatKernels, ShareOutAsOneByOne) {
     std::vector<WaitingSplat> splats(200);
     for (auto& splat : splats) {
       // Words of all sizes; the largest too.
-      for (auto& word : splat.words) word = random() % 8 == 0 ? most : static_cast<std::uint32_t>(random()) & most >> random() % 24;
+      for (auto& word : splat.words)
+        word = random() % 8 == 0 ? most : static_cast<std::uint32_t>(random()) & most >> random() % 24;
       splat.depth = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(slices.boundary(20)));
     }
     for (const std::uint64_t target : targets.all()) {

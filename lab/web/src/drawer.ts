@@ -32,6 +32,8 @@ export class Drawer {
   /** The state that was drawn at rest last, or is being drawn. */
   private resting: Lab | null = null;
   private rest_request: Request | null = null;
+  /** The state of which a draft was asked last. */
+  private drafted: Lab | null = null;
 
   constructor(
     private readonly engine: Engine,
@@ -54,7 +56,10 @@ export class Drawer {
     if (lab === this.resting) return;
     this.resting = null;
     if (this.rest_request && this.engine.busy_with === this.rest_request && this.engine.busy_for > useless_ms) this.engine.cancel();
-    if (reducible && (live || this.last_ms > slow_ms)) void this.ask(lab, true, turn);
+    if (reducible && lab !== this.drafted && (live || this.last_ms > slow_ms)) {
+      this.drafted = lab;
+      void this.ask(lab, true, turn);
+    }
     if (!live || !reducible) void this.rest(lab, turn);
     else this.timer = window.setTimeout(() => this.draw(false), rest_ms);
   }

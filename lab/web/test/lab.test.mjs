@@ -304,7 +304,8 @@ test("3-D Gaussians: built in and dropped", async () => {
   assert.match(await page.textContent("#command"), /--cutoff 2/);
   await rest(page, () => page.click("#undo"));
   await page.waitForFunction(() => /\d/.test(document.getElementById("cycles-actual")?.textContent ?? ""), null, { timeout: 60_000 });
-  // The link carries them.
+  // The link carries them; it follows a change after a moment.
+  await page.waitForFunction(() => !location.hash.includes("cutoff"));
   const other = await open({ hash: await page.evaluate(() => location.hash) });
   await settled(other);
   assert.equal(await shown_hash(other), shells);

@@ -9,7 +9,6 @@
 
 #include "analysis/provenance.hpp"
 #include "base/machine_error.hpp"
-#include "base/memory.hpp"
 #include "base/number_text.hpp"
 #include "base/version.hpp"
 #include "cli/frame_names.hpp"
@@ -125,8 +124,9 @@ Json to_json(const Result& result) {
 
 std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
   if (arguments.rate && arguments.video.empty()) refuse_animation("--rate", "requires --video", "add --video FILE.mp4");
-  if (arguments.keep_memory && (arguments.counters || arguments.plain || arguments.engine != "cmodel")) {
-    refuse_animation("--keep-memory", "only --engine cmodel without --counters or --plain keeps voxels",
+  if (arguments.keep_memory &&
+      (arguments.counters || arguments.plain || !arguments.common.json.empty() || arguments.engine != "cmodel")) {
+    refuse_animation("--keep-memory", "only --engine cmodel without --counters, --json or --plain keeps voxels",
                      "leave --keep-memory out");
   }
   if (!arguments.orbit && !arguments.sequence) {
@@ -184,7 +184,7 @@ void check_animation(const RenderArguments& arguments, const scene::Sequence& se
 }
 
 std::size_t kept_bytes(const RenderArguments& arguments) {
-  return arguments.keep_memory ? static_cast<std::size_t>(*arguments.keep_memory) << 20 : machine_memory() / 4;
+  return arguments.keep_memory ? static_cast<std::size_t>(*arguments.keep_memory) << 20 : scene::usual_store_bytes();
 }
 
 /// The scene of a frame; errors name the frame's number.

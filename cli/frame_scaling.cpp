@@ -119,7 +119,7 @@ FrameScaling ScalingRun::scaling(const cmodel::CycleCluster& cluster) const {
   out.frame = cluster.frame_cycles();
   out.one_device = clusters_.front().frame_cycles();
   out.bytes_in = cluster.beats_in() * cmodel::kBeatBytes;
-  out.bytes_out = cluster.pixel_beats() * static_cast<std::uint64_t>(config_.lanes) * 16;
+  out.bytes_out = cluster.pixel_beats() * static_cast<std::uint64_t>(config_.lanes) * cmodel::kPixelBytes;
   out.splats = cluster.counters().splats;
   out.windows = cluster.counters().windows;
   out.shares = cmodel::frame_shares(config_, cluster);

@@ -50,15 +50,20 @@ void refuse_what_is_of_volumes(const SceneFlags& scene) {
 }  // namespace
 
 void declare(Options& options, GaussianFlags& to) {
+  const scene::GaussianDescription usual;
   options.group("3-D Gaussians");
   options.word("--gaussians", to.file, "FILE|NAME",
                "draw a trained scene (.ply or .splat), or shells:2000 or cloud:500, instead of a volume");
   options.values(scene::synthetic_gaussian_names);
   options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
                  "axis that points up: x, y, z, -x, -y, -z (as declared by the file, else -y; z in built-in scenes)");
-  options.number("--low-pass", to.low_pass, "NUMBER",
-                 "variance added to every footprint, in square pixels, 0.01 to 100 (0.3)");
-  options.number("--cutoff", to.cutoff, "NUMBER", "radius of a footprint in standard deviations, 1 to 4 (3)");
+  static const std::string low_pass =
+      fmt::format("variance added to every footprint, in square pixels, {:g} to {:g} ({:g})", scene::kLowPassLimits.low,
+                  scene::kLowPassLimits.high, usual.low_pass);
+  static const std::string cutoff = fmt::format("radius of a footprint in standard deviations, {:g} to {:g} ({:g})",
+                                                scene::kCutoffLimits.low, scene::kCutoffLimits.high, usual.cutoff);
+  options.number("--low-pass", to.low_pass, "NUMBER", low_pass.c_str());
+  options.number("--cutoff", to.cutoff, "NUMBER", cutoff.c_str());
   options.choice("--order", to.order, order_names(), "NAME",
                  "golden: sort by depth of centres, or in every pixel: centres, pixels (centres)");
 }
@@ -72,7 +77,7 @@ GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene) {
   view.description.camera = view.shown.camera;
   view.description.width = view.shown.width;
   view.description.height = view.shown.height;
-  view.description.up = scene::files_of_gaussians(*flags.file).empty() ? scene::UpAxis::Z : scene::UpAxis::MinusY;
+  view.description.up = scene::usual_up(*flags.file);
   if (flags.up) view.description.up = named<scene::UpAxis>(scene::up_axis_names(), *flags.up);
   if (flags.low_pass) view.description.low_pass = *flags.low_pass;
   if (flags.cutoff) view.description.cutoff = *flags.cutoff;

@@ -31,7 +31,7 @@ struct RenderArguments {
   std::optional<std::string> orbit;  ///< "A..B", degrees
   bool sequence = false;             ///< as in the scene's [sequence]
   std::optional<int> frames;
-  std::optional<int> keep_memory;  ///< MiB of classified voxels that frames share
+  std::optional<int> keep_memory;  ///< MiB of classified voxels; absent: scene::usual_store_bytes()
   std::string video;               ///< empty for none
   std::optional<double> rate;  ///< of the video, frames a second
 };

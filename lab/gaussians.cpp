@@ -12,6 +12,7 @@
 #include "base/number_text.hpp"
 #include "base/shell_word.hpp"
 #include "golden/gaussians.hpp"
+#include "lab/limits.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 
 namespace fastsplat::lab {
@@ -19,8 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t kMostFileBytes = 400'000'000;  ///< as the page takes files
-constexpr long kMostBuiltIn = 1'000'000;
 constexpr const char* kUp = "gaussians.up";
 constexpr const char* kDeclared = "as declared";
 constexpr std::array kCameras{"camera.azimuth", "camera.elevation",  "camera.roll", "camera.zoom",
@@ -31,13 +30,13 @@ struct Number {
   const char* name;
   const char* flag;
   const char* help;
-  double low, high;
+  scene::Limits limits;
   double scene::GaussianDescription::*of;
 };
 constexpr std::array kNumbers{
-    Number{"gaussians.low_pass", "--low-pass", "variance added to every footprint, in square pixels", 0.01, 100.0,
-           &scene::GaussianDescription::low_pass},
-    Number{"gaussians.cutoff", "--cutoff", "radius of a footprint in standard deviations", 1.0, 4.0,
+    Number{"gaussians.low_pass", "--low-pass", "variance added to every footprint, in square pixels",
+           scene::kLowPassLimits, &scene::GaussianDescription::low_pass},
+    Number{"gaussians.cutoff", "--cutoff", "radius of a footprint in standard deviations", scene::kCutoffLimits,
            &scene::GaussianDescription::cutoff}};
 
 [[noreturn]] void too_large(const std::string& name, const std::string& most, const std::string& got) {
@@ -48,13 +47,13 @@ void check_size(const std::string& name) {
   for (const auto& path : scene::files_of_gaussians(name)) {
     std::error_code error;
     const auto bytes = std::filesystem::file_size(path, error);
-    if (!error && bytes > kMostFileBytes)
+    if (!error && bytes > std::uintmax_t{kMostFileBytes})
       too_large(name, fmt::format("at most {} bytes", kMostFileBytes), fmt::format("{}", bytes));
   }
   const auto colon = name.find(':');
-  const auto count = colon == std::string::npos ? std::nullopt : integer_from<long>(name.substr(colon + 1));
-  if (count && *count > kMostBuiltIn)
-    too_large(name, fmt::format("at most {} Gaussians", kMostBuiltIn), fmt::format("{}", *count));
+  const auto count = colon == std::string::npos ? std::nullopt : integer_from<std::int64_t>(name.substr(colon + 1));
+  if (count && *count > kMostGaussians)
+    too_large(name, fmt::format("at most {} Gaussians", kMostGaussians), fmt::format("{}", *count));
 }
 
 }  // namespace
@@ -78,8 +77,8 @@ Json gaussian_settings() {
                    {"help", one.help},
                    {"default", fmt::format("{}", scene::GaussianDescription{}.*one.of)},
                    {"kind", "real"},
-                   {"low", one.low},
-                   {"high", one.high}});
+                   {"low", one.limits.low},
+                   {"high", one.limits.high}});
   }
   return out;
 }
@@ -135,10 +134,7 @@ const GaussianView& GaussianViews::of(const GaussianRequest& request) {
     name_ = request.name;
   }
   scene::GaussianDescription view = request.description;
-  if (!request.up_given) {
-    const bool built_in = scene::files_of_gaussians(request.name).empty();
-    view.up = cloud_->up.value_or(built_in ? scene::UpAxis::Z : scene::UpAxis::MinusY);
-  }
+  if (!request.up_given) view.up = cloud_->up.value_or(scene::usual_up(request.name));
   const auto& camera = view.camera;
   const std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(camera.projection),
                                       camera.azimuth, camera.elevation, camera.roll, camera.zoom, camera.fov,

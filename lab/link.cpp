@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "lab/limits.hpp"
 #include "lab/request.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/settings.hpp"
@@ -23,7 +24,6 @@ using Json = nlohmann::ordered_json;
 using Query = std::map<std::string, std::string>;
 
 constexpr std::string_view kPrefix = "#lab?";
-constexpr int kLeastSide = 16, kMostSide = 1024;  ///< pictures that the page draws
 
 std::optional<int> hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -85,11 +85,11 @@ void take_size(const std::string& text, Json& state) {
 }  // namespace
 
 Json state_of_link(const std::string& link) {
-  Json state{{"volume", "shells:64"},
+  Json state{{"volume", scene::SceneDescription{}.volume},
              {"gaussians", ""},
              {"tf", ""},
              {"tf_toml", ""},
-             {"kernel", "gauss2"},
+             {"kernel", scene::SceneDescription{}.kernel},
              {"width", 256},
              {"height", 256},
              {"settings", Json::object()},

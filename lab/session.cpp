@@ -28,6 +28,7 @@
 #include "driver/tiles/gaussian_frame.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "lab/limits.hpp"
 #include "lab/link.hpp"
 #include "lab/tables.hpp"
 #include "lab/termination.hpp"
@@ -41,9 +42,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kFloatScale = 1 << 16;  ///< of golden's words, as in a report
-constexpr std::uint64_t kPixelBytes = 16;      ///< four words
 constexpr std::size_t kScenes = 4;             ///< kept at most
-constexpr std::int64_t kMostVoxels = 40'000'000;
 constexpr std::size_t kStoreBytes = std::size_t{256} << 20;
 
 template <class Word>
@@ -252,7 +251,7 @@ Json Session::cycles(const Json& json) {
           {"end", model.end_cycle()},
           {"account", counted_json(model.account())},
           {"bytes_in", model.sent_beats() * cmodel::kBeatBytes},
-          {"bytes_out", model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * kPixelBytes}};
+          {"bytes_out", model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * cmodel::kPixelBytes}};
 }
 
 Json Session::errors(const Json& json, std::vector<Words>& pictures) {

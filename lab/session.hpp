@@ -38,8 +38,7 @@ class Session {
  public:
   /// `request`: {"ask": "tables" | "frame" | "cycles" | "errors" | "terminated" | "pixel" | "histogram" | "config" |
   /// "link", ...} with the keys of lab/request.hpp, and of "frame": "quick" (no SSIM); of "pixel": "x" and "y"; of
-  /// "link": "link" (lab/link.hpp). Never
-  /// throws.
+  /// "link": "link" (lab/link.hpp). Never throws.
   Answer answer(const std::string& request);
 
  private:

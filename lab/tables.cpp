@@ -9,6 +9,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
 #include "lab/gaussians.hpp"
+#include "lab/limits.hpp"
 #include "lab/request.hpp"
 #include "scene/embedded.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
@@ -90,6 +91,7 @@ Json tables() {
     const auto equals = change.find('=');
     out["gaussian_changes"][change.substr(0, equals)] = change.substr(equals + 1);
   }
+  out["limits"] = {{"least_side", kLeastSide}, {"most_side", kMostSide}, {"most_bytes", kMostFileBytes}};
   out["presets"] = scene::transfer_function_presets();
   out["kernels"] = scene::kernel_names();
   return out;

@@ -10,7 +10,7 @@
 
 namespace fastsplat::scene {
 
-/// What no view changes of a shaded point.
+/// What shading needs of a point and does not depend on the view.
 struct Surface {
   glm::vec3 normal{0.0f};
   float share = 0.0f;  ///< of the shaded colour in the result, 0: the colour as classified

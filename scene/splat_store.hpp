@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps what frames of a volume have in common: its bricks, and in each the classified splats with their surfaces.
+// Keeps what does not depend on the view: a volume's bricks, and in each the classified splats with their surfaces.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "scene/splats.hpp"
 #include "scene/volume/bricks.hpp"
 
@@ -30,6 +31,9 @@ struct BrickSplats {
   glm::vec3 position(std::size_t i) const { return {row(0)[i], row(1)[i], row(2)[i]}; }
   std::size_t bytes() const { return sizeof *this + splats.size() * sizeof(One) + positions.size() * sizeof(float); }
 };
+
+/// Memory for a store that nobody bounded otherwise: a quarter of the machine's.
+inline std::size_t usual_store_bytes() { return machine_memory() / 4; }
 
 class SplatStore {
  public:

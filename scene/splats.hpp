@@ -24,7 +24,7 @@ struct Splat {
   std::uint16_t sheet;  ///< axis-aligned sheet number, 0 nearest to the eye
 };
 
-/// What no view changes of a voxel's splat.
+/// The part of a voxel's splat that does not depend on the view.
 struct UnlitSplat {
   glm::vec3 colour;
   float extinction;  ///< per kernel unit, > 0

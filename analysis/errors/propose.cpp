@@ -7,7 +7,6 @@
 #include "analysis/provenance.hpp"
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
-#include "base/memory.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
 #include "scene/splat_store.hpp"
@@ -21,7 +20,7 @@ Simulator::Simulator(std::vector<scene::Scene> scenes, Journal& journal, int thr
     : scenes_(std::move(scenes)), journal_(journal), threads_(threads), golden_(scenes_.size()) {
   for (scene::Scene& scene : scenes_) {
     hashes_.push_back(scene_hash(scene));
-    scene.store = std::make_shared<scene::SplatStore>(machine_memory() / 4 / scenes_.size());
+    scene.store = std::make_shared<scene::SplatStore>(scene::usual_store_bytes() / scenes_.size());
   }
 }
 

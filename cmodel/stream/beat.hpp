@@ -14,6 +14,7 @@ using Beat = std::array<std::uint32_t, 8>;
 constexpr std::size_t kBeatWords = std::tuple_size_v<Beat>;
 constexpr int kBeatBytes = static_cast<int>(sizeof(Beat));
 constexpr int kBeatBits = 8 * kBeatBytes;
+constexpr int kPixelBytes = 16;  ///< of a pixel of the output: four words
 
 /// Bits lsb .. lsb+bits-1 of word `word`.
 struct Field {

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "scene/splat_store.hpp"
+
 namespace fastsplat::driver {
 
 /// The view and the formats of centres.
@@ -20,8 +22,8 @@ struct CentreRule {
   double depth_scale, depth_bias;
 };
 
-/// Reads from and writes to whole vectors: all arrays have room for kMoreCentres more.
-inline constexpr std::size_t kMoreCentres = 8;
+/// Reads from and writes to whole vectors: all arrays have room for as many more.
+inline constexpr std::size_t kMoreCentres = scene::BrickSplats::kMore;
 /// Positions (mm, world) to words, and pixels per mm at each.
 void place_centres(const CentreRule& rule, const float* const (&position)[3], std::size_t count, std::int32_t* x,
                    std::int32_t* y, std::int32_t* depth, double* scale);

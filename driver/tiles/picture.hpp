@@ -25,7 +25,8 @@ struct Picture {
 };
 
 /// The words are those of the counting units. Empty if a sum may have been cut. `band_rows`, the height of a band,
-/// rounded up to blocks, and `threads` (0: all cores) never change the frame. Progress counts bands.
+/// rounded up to blocks, and `threads` (0: all cores) never change the frame. Takes splats from scene.store, if there
+/// is one, and keeps them there. Progress counts bands.
 std::optional<Picture> draw_picture(const scene::Scene& scene, const FrameHead& head,
                                     const cmodel::fast::FrameTables& tables, int band_rows, int threads,
                                     const Progress& progress);

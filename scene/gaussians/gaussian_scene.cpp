@@ -61,11 +61,11 @@ double radius_of(const GaussianCloud& cloud, const glm::dvec3& middle, double cu
   return radius > 0.0 ? radius : 1.0;
 }
 
-void check_limit(const char* flag, double value, double low, double high, double usual) {
-  if (value >= low && value <= high) return;
+void check_limit(const char* flag, double value, const Limits& limits, double usual) {
+  if (value >= limits.low && value <= limits.high) return;
   throw_usage({.where = flag,
                .what = "out of range",
-               .expected = fmt::format("{:g}..{:g}", low, high),
+               .expected = fmt::format("{:g}..{:g}", limits.low, limits.high),
                .got = fmt::format("{:g}", value),
                .fix = fmt::format("{:g} is the default", usual)});
 }
@@ -77,10 +77,14 @@ const std::vector<std::string>& up_axis_names() {
   return names;
 }
 
+UpAxis usual_up(const std::string& name_or_path) {
+  return files_of_gaussians(name_or_path).empty() ? UpAxis::Z : UpAxis::MinusY;
+}
+
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud) {
   assert(!cloud->gaussians.empty());
-  check_limit("--low-pass", description.low_pass, 0.01, 100.0, GaussianDescription{}.low_pass);
-  check_limit("--cutoff", description.cutoff, 1.0, 4.0, GaussianDescription{}.cutoff);
+  check_limit("--low-pass", description.low_pass, kLowPassLimits, GaussianDescription{}.low_pass);
+  check_limit("--cutoff", description.cutoff, kCutoffLimits, GaussianDescription{}.cutoff);
   const glm::dvec3 middle = middle_of(*cloud);
   const double radius = radius_of(*cloud, middle, description.cutoff);
   return {.description = description,

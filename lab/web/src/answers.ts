@@ -36,6 +36,8 @@ export interface Tables {
   gaussian_settings: Setting[];
   gaussian_config: string;
   gaussian_changes: Record<string, string>;
+  /** What a page draws, pixels, and takes, bytes. */
+  limits: { least_side: number; most_side: number; most_bytes: number };
   presets: string[];
   kernels: string[];
 }

@@ -2,8 +2,6 @@
 // Files from the user's disk: dropped or chosen. Sorts them by kind; a file too large is refused before it is read.
 import { h } from "../../../report/web/src/dom";
 
-export const most_bytes = 400_000_000;
-
 export interface Taken {
   /** A volume, with the files that its header names, or Gaussians; the first is the one to show. */
   volumes: { name: string; blob: Blob }[];
@@ -25,7 +23,7 @@ const is_gaussians = /\.(ply|splat)$/i;
 const is_volume = /\.(nii|nrrd|nhdr|mha|mhd|hdr|raw|zraw|img|bin|gz)$/i;
 
 /** Reads dropped files. Throws an Error with one line about the first that cannot be used. */
-export async function taken(files: File[]): Promise<Taken> {
+export async function taken(files: File[], most_bytes: number): Promise<Taken> {
   const result: Taken = { volumes: [], gaussians: false, tf: null, config: null };
   for (const file of files) {
     const mb = (bytes: number): string => `${Math.round(bytes / 1e6)} MB`;

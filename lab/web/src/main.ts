@@ -33,7 +33,7 @@ async function start(): Promise<void> {
     });
     const { json: lab } = await linked;
     const slow = new Engine(program, files, (message) => notice(message));
-    const page = new Page(tables.json, lab, quick, slow, new Shelf(files, [quick, slow]));
+    const page = new Page(tables.json, lab, quick, slow, new Shelf(files, [quick, slow], tables.json.limits.most_bytes));
     notice = (message) => page.notice(message);
     page.begin();
     if (wrong) page.notice(wrong);

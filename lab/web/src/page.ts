@@ -252,7 +252,7 @@ export class Page {
     if (list.length === 0) return;
     let path = "";
     try {
-      const { volumes, gaussians, tf, config } = await taken(list);
+      const { volumes, gaussians, tf, config } = await taken(list, this.tables.limits.most_bytes);
       if (config !== null) await this.use_config(config);
       if (volumes.length === 0 && tf === null) return;
       if (volumes.length) path = this.shelf.add_volume(volumes);

@@ -4,7 +4,6 @@ import { h } from "../../../report/web/src/dom";
 import type { Setting, Tables } from "./answers";
 import { control, type Control, type Spec } from "./controls";
 import { changed, type Lab, type Store } from "./lab_state";
-import { clamped, most_side } from "./link";
 import { integer_range, real_range } from "./ranges";
 import { tf_file } from "./requests";
 import { shown_name, subject_of, to_subject, word_of } from "./subject";
@@ -40,8 +39,8 @@ export class ScenePanel {
   private readonly volume = h("select", { id: "volume", change: () => this.store.set(to_subject(this.store.now, this.volume.value, this.tables)) });
   private readonly tf = h("select", { id: "tf", change: () => this.choose_tf(this.tf.value) });
   private readonly kernel = h("select", { id: "kernel", change: () => this.store.set({ kernel: this.kernel.value }) });
-  private readonly width = h("input", { type: "number", id: "width", min: 16, max: most_side, step: 1, "aria-label": "Width in pixels", change: () => this.resize() });
-  private readonly height = h("input", { type: "number", id: "height", min: 16, max: most_side, step: 1, "aria-label": "Height in pixels", change: () => this.resize() });
+  private readonly width = h("input", { type: "number", id: "width", step: 1, "aria-label": "Width in pixels", change: () => this.resize() });
+  private readonly height = h("input", { type: "number", id: "height", step: 1, "aria-label": "Height in pixels", change: () => this.resize() });
   private readonly reset = h("button", { type: "button", id: "reset-scene", click: () => this.store.set({ settings: {} }) }, "Reset all settings");
   private readonly edit: HTMLButtonElement;
   /** Subjects from files. */
@@ -64,6 +63,7 @@ export class ScenePanel {
     const row = (label: string, id: string, ...inputs: HTMLElement[]): HTMLElement => h("div", { class: "control" }, h("label", { for: id }, label), h("div", { class: "entry" }, inputs));
     const groups = [...new Set(tables.settings.filter((setting) => !own.has(setting.name)).map(group_of))].sort((a, b) => Number(b === "Camera") - Number(a === "Camera"));
     this.edit = h("button", { type: "button", id: "edit-tf", click: edit_tf }, "Edit\u2026");
+    for (const side of [this.width, this.height]) Object.assign(side, { min: tables.limits.least_side, max: tables.limits.most_side });
     this.fill_volumes();
     this.kernel.append(...tables.kernels.map((name) => h("option", { value: name }, name)));
     this.root = h(
@@ -107,7 +107,9 @@ export class ScenePanel {
   }
 
   private resize(): void {
-    this.store.set({ width: clamped(Number(this.width.value)), height: clamped(Number(this.height.value)) });
+    const { least_side, most_side } = this.tables.limits;
+    const side = (input: HTMLInputElement, now: number): number => Math.min(most_side, Math.max(least_side, Math.round(Number(input.value)) || now));
+    this.store.set({ width: side(this.width, this.store.now.width), height: side(this.height, this.store.now.height) });
     this.show(this.store.now);
   }
 

@@ -2,7 +2,6 @@
 // The files that the engines see under /files: transfer functions by their hash, and volumes, of which the oldest go when
 // all of them would take too much memory.
 import type { Engine, Files } from "./engine";
-import { most_bytes } from "./files";
 import type { Lab } from "./lab_state";
 import { tf_file } from "./requests";
 
@@ -18,6 +17,7 @@ export class Shelf {
   constructor(
     private readonly files: Files,
     private readonly engines: Engine[],
+    private readonly most_bytes: number,
   ) {}
 
   has(name: string): boolean {
@@ -43,7 +43,7 @@ export class Shelf {
     for (const part of all) this.add(part.name, part.blob);
     const path = `/files/${name}`;
     this.volumes.push({ path, names: all.map((part) => part.name), bytes: all.reduce((sum, part) => sum + part.blob.size, 0) });
-    while (this.volumes.length > 1 && this.volumes.reduce((sum, each) => sum + each.bytes, 0) > most_bytes) this.remove(this.volumes[0].path);
+    while (this.volumes.length > 1 && this.volumes.reduce((sum, each) => sum + each.bytes, 0) > this.most_bytes) this.remove(this.volumes[0].path);
     return path;
   }
 

@@ -215,7 +215,8 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   result.engine = to_string(renderer.engine);
   std::shared_ptr<const volume::Volume> volume;  // no track changes it
   // A cropped volume is made anew for each frame.
-  const auto store = still.crop.everything() ? std::make_shared<scene::SplatStore>(kept_bytes(arguments)) : nullptr;
+  const auto store =
+      count > 1 && still.crop.everything() ? std::make_shared<scene::SplatStore>(kept_bytes(arguments)) : nullptr;
   for (std::size_t frame = 0; frame < count; ++frame) {
     scene::Scene scene = scene_of(sequence, still, frame, volume);
     scene.store = store;

@@ -51,6 +51,8 @@ export class Page {
   private wanted_hash: string;
   private base_of = "";
   private frames = 0;
+  /** The state now, once it is shown at rest. */
+  private drawn: Lab | null = null;
 
   constructor(
     private readonly tables: Tables,
@@ -134,6 +136,9 @@ export class Page {
     this.scene.show(lab);
     this.device.show(lab);
     this.history();
+    // A slider that was held still is released: all is shown, or asked for.
+    if (lab === this.drawn) return;
+    this.drawn = null;
     this.slowly.changed();
     document.documentElement.dataset.settled = "false";
     this.drawer.draw(live);
@@ -192,8 +197,9 @@ export class Page {
     this.command.textContent = frame.command;
     document.title = `${shown_name(subject_of(shown.lab))}, ${frame.config.name}: FastSplat lab`;
     this.slowly.show(shown);
+    if (!draft && shown.lab === this.store.now) this.drawn = shown.lab;
     const root = document.documentElement;
-    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(!draft && shown.lab === this.store.now), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
+    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(this.drawn !== null), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
     if (!draft) this.tried.add(shown);
     if (this.wanted_hash && this.wanted_hash !== frame.config.hash) this.notice(`The report's configuration ${frame.config.name} has the hash ${this.wanted_hash}; this one has ${frame.config.hash}. Set its changed keys, or drop its file.`);
     this.wanted_hash = "";

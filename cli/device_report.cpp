@@ -8,7 +8,6 @@
 
 #include "base/hash_text.hpp"
 #include "cli/config_json.hpp"
-#include "cli/image_output.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/counters.hpp"
 
@@ -110,12 +109,19 @@ std::vector<Remark> remarks(const driver::DriverReport& report) {
   return remarks;
 }
 
+std::string visible_text(const std::string& splats, const std::string& records, const cmodel::Config& config,
+                         const driver::UnitReport& units) {
+  return fmt::format("driver: {} and {} can change a pixel; others are left out (--counters counts them)\n", splats,
+                     records) +
+         fmt::format("device: configuration {} {}\nunit: fast ({}), without counters\n", config.name,
+                     hash_text(cmodel::config_hash(config)), units.vectors);
+}
+
 std::string to_text(const DeviceReport& report) {
   const std::string name = report.config.name + " " + hash_text(cmodel::config_hash(report.config));
   if (!report.counted) {
-    return fmt::format("driver: {} and {} can change a pixel; others are left out (--counters counts them)\n",
-                       counted(report.driver.voxels, "voxel"), counted(report.driver.splat_records, "splat record")) +
-           fmt::format("device: configuration {}\nunit: fast ({}), without counters\n", name, report.units.vectors);
+    return visible_text(counted(report.driver.voxels, "voxel"), counted(report.driver.splat_records, "splat record"),
+                        report.config, report.units);
   }
   return to_text(report.driver) +
          fmt::format("device: configuration {}, {}, {} composited\n", name,
@@ -150,24 +156,19 @@ std::vector<Remark> remarks(const DeviceReport& report) {
   return remarks;
 }
 
-void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const images::Metadata& metadata, const Output& output,
-                         const scene::SceneDescription* description) {
-  const Image image = driver::to_image(result.frame);
-  warn_if_empty(image, output);
-  write_images(out, image, description ? scene::displayed(image, *description) : image, metadata, output);
-  if (!raw.empty()) {
-    const cmodel::Frame& frame = result.frame;
-    images::write_raw(raw,
-                      {.width = frame.width,
-                       .height = frame.height,
-                       .int_bits = frame.int_bits,
-                       .frac_bits = frame.frac_bits,
-                       .words = frame.words,
-                       .config_hash = frame.config_hash},
-                      metadata);
-    output.line(raw);
-  }
+void write_device_images(const cmodel::Frame& frame, const std::vector<std::string>& out, const std::string& raw,
+                         const Shown& shown, const images::Metadata& metadata, const Output& output) {
+  write_images(out, driver::to_image(frame), shown, metadata, output);
+  if (raw.empty()) return;
+  images::write_raw(raw,
+                    {.width = frame.width,
+                     .height = frame.height,
+                     .int_bits = frame.int_bits,
+                     .frac_bits = frame.frac_bits,
+                     .words = frame.words,
+                     .config_hash = frame.config_hash},
+                    metadata);
+  output.line(raw);
 }
 
 }  // namespace fastsplat::cli

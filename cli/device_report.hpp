@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/images/image_file.hpp"
+#include "cli/image_output.hpp"
 #include "cli/output.hpp"
 #include "driver/tiles/render.hpp"
 
@@ -25,6 +26,9 @@ struct DeviceReport {
 /// Which unit rendered the tiles; `counters` are of the same frame.
 std::string to_text(const driver::UnitReport& units, const cmodel::Counters& counters);
 std::string to_text(const driver::DriverReport& report);
+/// Of a picture without counters; `splats` and `records` are counts with their words.
+std::string visible_text(const std::string& splats, const std::string& records, const cmodel::Config& config,
+                         const driver::UnitReport& units);
 std::string to_text(const DeviceReport& report);
 /// Keys of a subcommand's JSON.
 nlohmann::ordered_json to_json(const driver::UnitReport& units);
@@ -34,9 +38,8 @@ nlohmann::ordered_json to_json(const DeviceReport& report);
 std::vector<Remark> remarks(const driver::DriverReport& report);
 std::vector<Remark> remarks(const DeviceReport& report);
 
-/// `description`: the scene's, whose display settings apply; null for a replay.
-void write_device_images(const driver::DeviceRender& result, const std::vector<std::string>& out,
-                         const std::string& raw, const images::Metadata& metadata, const Output& output,
-                         const scene::SceneDescription* description = nullptr);
+/// The picture by write_images() and, if `raw` is a file's name, its words.
+void write_device_images(const cmodel::Frame& frame, const std::vector<std::string>& out, const std::string& raw,
+                         const Shown& shown, const images::Metadata& metadata, const Output& output);
 
 }  // namespace fastsplat::cli

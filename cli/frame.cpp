@@ -155,13 +155,11 @@ std::vector<Remark> remarks(const FrameReport& report) {
 
 void write_frame(const RenderedFrame& frame, const scene::Scene& scene, const FrameFiles& files,
                  const images::Metadata& metadata, const Output& output) {
-  if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture)) {
-    write_device_images(*device, files.out, files.raw, metadata, output, &scene.description);
-    return;
-  }
-  const Image& image = std::get<Image>(frame.picture);
-  warn_if_empty(image, output);
-  write_images(files.out, image, scene::displayed(image, scene.description), metadata, output);
+  const auto shown = [&scene](const Image& image) { return scene::displayed(image, scene.description); };
+  if (const auto* device = std::get_if<driver::DeviceRender>(&frame.picture))
+    write_device_images(device->frame, files.out, files.raw, shown, metadata, output);
+  else
+    write_images(files.out, std::get<Image>(frame.picture), shown, metadata, output);
 }
 
 }  // namespace fastsplat::cli

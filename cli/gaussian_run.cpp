@@ -52,6 +52,7 @@ struct DeviceGaussians {
   driver::GaussianReport report;
   cmodel::Counters counters;
   driver::UnitReport units;
+  bool counted = true;  ///< driver::GaussianRender::counted
   double lanes() const { return static_cast<double>(config.lanes) * config.lanes; }
   /// Share of the lanes of all windows that have a weight.
   double used() const {
@@ -82,6 +83,11 @@ std::string to_text(const GoldenGaussians& golden) {
 }
 
 std::string to_text(const DeviceGaussians& device) {
+  if (!device.counted) {
+    return to_text(device.report.projection) + visible_text(counted(device.report.in_tiles, "Gaussian") + " in tiles",
+                                                            counted(device.report.records, "ellipse record"),
+                                                            device.config, device.units);
+  }
   return to_text(device.report.projection) +
          fmt::format("driver: {} Gaussians in tiles, {}, {}\n", grouped(device.report.in_tiles),
                      counted(device.report.records, "ellipse record"), counted(device.report.tiles, "tile")) +
@@ -235,29 +241,28 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
 
   Result result{.engine = arguments.engine, .scene = scene, .files = {.out = arguments.out, .raw = arguments.raw}};
   scene::ProjectionReport projection;
-  const auto projected = scene::project_all(scene, &projection);
+  const auto projected = scene::project_all(scene, &projection, arguments.common.threads);
   const images::Metadata metadata = metadata_of(result, config, view.order);
   std::optional<driver::GaussianFrame> frame;
-  if (config) frame.emplace(scene, projected, *config);
+  if (config) frame.emplace(scene, projected, *config, arguments.common.threads);
   output.line(summary(scene));
   output.remark(remarks(*scene.cloud));
+  const auto shown = [&](const Image& image) { return shown_of(image, view.shown.display, scene.cloud->linear); };
   if (frame) {
     driver::GaussianRender render;
     {
       ProgressBar bar(arguments.engine, watching(arguments.common));
       render = driver::render_gaussians(*frame, {.threads = arguments.common.threads,
                                                  .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
+                                                 .counters = arguments.counters || !arguments.common.json.empty(),
                                                  .progress = bar.callback()});
     }
-    DeviceGaussians device{*config, render.report, render.counters, render.units};
+    DeviceGaussians device{*config, render.report, render.counters, render.units, render.counted};
     device.report.projection = projection;
     output.line(to_text(device));
     output.remark(remarks(device));
     result.of = device;
-    driver::DeviceRender whole{.frame = std::move(render.frame), .counters = {}, .report = {}, .units = {}};
-    const Image image = driver::to_image(whole.frame);
-    write_images(result.files.out, image, shown_of(image, view.shown.display, scene.cloud->linear), metadata, output);
-    write_device_images(whole, {}, result.files.raw, metadata, output);
+    write_device_images(render.frame, result.files.out, result.files.raw, shown, metadata, output);
   } else {
     GoldenGaussians golden{projection};
     Image image;
@@ -271,8 +276,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     }
     output.line(to_text(golden));
     result.of = golden;
-    warn_if_empty(image, output);
-    write_images(result.files.out, image, shown_of(image, view.shown.display, scene.cloud->linear), metadata, output);
+    write_images(result.files.out, image, shown, metadata, output);
   }
   result.seconds = output.seconds();
   output.json(to_json(result));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/lower_case.hpp"
 #include "cli/output_names.hpp"
@@ -26,24 +27,23 @@ void declare_images(Options& options, std::vector<std::string>& out, std::string
   options.word("--raw", raw, "FILE", "write the device's raw integer words as .exr (cmodel, rtl)");
 }
 
-void write_images(const std::vector<std::string>& paths, const Image& image, const Image& shown,
+void write_images(const std::vector<std::string>& paths, const Image& image, const Shown& shown,
                   const images::Metadata& metadata, const Output& output) {
+  if (std::ranges::all_of(image.data, [](float value) { return value == 0.0F; }))
+    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or another --zoom");
+  std::optional<Image> made;
   for (const auto& path : paths) {
     const auto options = options_for(path);
     auto labelled = metadata;
     if (options.display) labelled["display"] = "srgb";
-    const std::size_t clamped = images::write_image(path, ending_of(path) == ".exr" ? image : shown, labelled, options);
+    const bool as_it_is = !shown || ending_of(path) == ".exr";
+    if (!as_it_is && !made) made = shown(image);
+    const std::size_t clamped = images::write_image(path, as_it_is ? image : *made, labelled, options);
     if (clamped > 0) {
       output.warn(
           fmt::format("{}: {} values outside 0..1 were clamped; write .exr to keep them", path, grouped(clamped)));
     }
     output.line(path);
-  }
-}
-
-void warn_if_empty(const Image& image, const Output& output) {
-  if (std::all_of(image.data.begin(), image.data.end(), [](float value) { return value == 0.0f; })) {
-    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or another --zoom");
   }
 }
 

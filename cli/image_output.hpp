@@ -2,6 +2,7 @@
 // Image files of a render or a replay: --out and --raw.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,12 @@ namespace fastsplat::cli {
 
 void declare_images(Options& options, std::vector<std::string>& out, std::string& raw);
 
-/// By extension: .exr float, .tif 16-bit linear, .png 8-bit for display. An .exr file gets `image`, the others `shown`
-/// (scene/display.hpp). Warns if values were clamped.
-void write_images(const std::vector<std::string>& paths, const Image& image, const Image& shown,
-                  const images::Metadata& metadata, const Output& output);
+/// The picture to look at of a linear one (scene/display.hpp); an empty function: the same picture.
+using Shown = std::function<Image(const Image&)>;
 
-/// Warns if all values are 0, which is almost always a mistake.
-void warn_if_empty(const Image& image, const Output& output);
+/// By extension: .exr float, .tif 16-bit linear, .png 8-bit for display. An .exr file gets `image`, the others what
+/// `shown` makes of it. Warns if values were clamped, or if all are 0, which is almost always a mistake.
+void write_images(const std::vector<std::string>& paths, const Image& image, const Shown& shown,
+                  const images::Metadata& metadata, const Output& output);
 
 }  // namespace fastsplat::cli

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -54,6 +55,28 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   });
 }
 #endif
+
+std::vector<std::uint32_t> stable_order(std::span<const double> keys, [[maybe_unused]] int threads) {
+  struct Key {
+    double value;
+    std::uint32_t number;
+    bool operator<(const Key& other) const {
+      return value < other.value || (value == other.value && number < other.number);
+    }
+  };
+  std::vector<Key> sorted(keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) sorted[i] = {keys[i], i};
+#ifdef __EMSCRIPTEN__
+  std::sort(sorted.begin(), sorted.end());
+#else
+  tbb::task_arena(static_cast<int>(thread_count(threads))).execute([&] {
+    tbb::parallel_sort(sorted.begin(), sorted.end());
+  });
+#endif
+  std::vector<std::uint32_t> out(keys.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = sorted[i].number;
+  return out;
+}
 
 void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job) {
   std::vector<std::size_t> order(work.size());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace fastsplat {
 
@@ -19,5 +20,19 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 
 /// The same for every i in [0, work.size()), in order of decreasing work[i], so that no long job runs last and alone.
 void parallel_for(std::span<const std::uint64_t> work, int threads, const std::function<void(std::size_t)>& job);
+
+/// The numbers of the keys, least key first; equal ones keep their order. No key is NaN.
+std::vector<std::uint32_t> stable_order(std::span<const double> keys, int threads);
+
+/// Jobs on consecutive elements are worth a call from about this many on.
+inline constexpr std::size_t kPart = 4096;
+
+/// Calls job(part, first, end) for [0, count) cut into parts of kPart elements; the last may be shorter.
+template <class Job>
+void parallel_parts(std::size_t count, int threads, const Job& job) {
+  parallel_for((count + kPart - 1) / kPart, threads, [&](std::size_t part) {
+    job(part, part * kPart, part * kPart + kPart < count ? part * kPart + kPart : count);
+  });
+}
 
 }  // namespace fastsplat

@@ -87,7 +87,7 @@ ExitCode run(const StreamReplayArguments& arguments) {
                                   {"stream", arguments.stream},
                                   {"config", config.name},
                                   {"config_hash", hash_text(cmodel::config_hash(config))}};
-  write_device_images(frame, arguments.out, arguments.raw, metadata, output);
+  write_device_images(frame.frame, arguments.out, arguments.raw, {}, metadata, output);
   result.seconds = output.seconds();
   output.json(to_json(result));
   output.note_time("replayed");

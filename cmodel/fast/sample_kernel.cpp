@@ -98,7 +98,7 @@ class Compositor {
   template <Rule kRule>
   void draw(std::span<const SplatJob> jobs, std::uint32_t* picture, std::size_t row) {
     for (const SplatJob& job : jobs) {
-      if (is_small(job))
+      if (is_small(tables_, std::max({job.colour[0], job.colour[1], job.colour[2], job.colour[3]})))
         draw<kRule, true>(job, picture, row);
       else
         draw<kRule, false>(job, picture, row);
@@ -123,13 +123,6 @@ class Compositor {
     if constexpr (kRule == Rule::Same) return product;
     if constexpr (kRule == Rule::Added) return narrowed(hn::ShiftLeftSame(product, plan.grown), plan.added);
     return narrowed_product(product, factor(tables_, hn::Broadcast<3>(product)), plan.slab);
-  }
-  /// Whether additive slabs are below 1.0. So are exponential ones: the factor is at most 1.0, and both round alike.
-  bool is_small(const SplatJob& job) const {
-    const auto rounded = [](std::uint64_t value, const Rounded& how) { return (value + how.bias) >> how.dropped; };
-    const SamplePlan& plan = tables_.plan;
-    const std::uint64_t brightest = std::max({job.colour[0], job.colour[1], job.colour[2], job.colour[3]});
-    return rounded(rounded(brightest * tables_.heaviest, plan.product) << plan.grown, plan.added) < plan.one;
   }
 
   const SampleTables& tables_;

@@ -18,6 +18,14 @@ struct SampleTables {
   std::uint32_t heaviest = 0;         ///< largest shifted weight
 };
 
+/// Whether every slab of a footprint is below 1.0; `brightest`: the largest word of its shifted colour.
+inline bool is_small(const SampleTables& tables, std::uint64_t brightest) {
+  // Of additive slabs. The factor of exponential ones is at most 1.0, and both round alike.
+  const auto rounded = [](std::uint64_t value, const Rounded& how) { return (value + how.bias) >> how.dropped; };
+  const SamplePlan& plan = tables.plan;
+  return rounded(rounded(brightest * tables.heaviest, plan.product) << plan.grown, plan.added) < plan.one;
+}
+
 /// Contributions to frozen_pixels, opacity_saturated and composite_saturated.
 struct SampleCounts {
   std::uint64_t frozen = 0, opacity_saturated = 0, composite_saturated = 0;

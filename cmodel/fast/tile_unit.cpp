@@ -154,7 +154,7 @@ PlacedFootprint TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<
             height = static_cast<int>(record.windows.rows) * lanes_;
   PlacedFootprint out = outline(left, top, width, height);
   out.set = static_cast<std::uint16_t>(heaviest_.size() - 1);
-  if (out.inside == 0) return out;
+  if (out.inside == 0 || (samples_ && !counts_ && frozen(out))) return out;
   const EllipseBox box{.column = std::max(0, -left),
                        .row = std::max(0, -top),
                        .columns = std::min(left + width, width_) - std::max(left, 0),
@@ -178,6 +178,14 @@ PlacedFootprint TileUnit<T>::place(const EllipseRecord& record, std::unique_ptr<
 template <class T>
 void TileUnit<T>::take(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& words) {
   const std::uint32_t largest = std::max({words[0], words[1], words[2], words[3]});
+  if (samples_ && any_frozen_ && frozen(placed) &&
+      is_small(*tables_.samples, std::uint64_t{largest} << colour_shift_)) {
+    count(placed, 1);
+    counters_.pixels_composited += placed.weighted;
+    counters_.frozen_pixels += placed.weighted;
+    hidden_splats_ += placed.counted ? 1 : 0;
+    return;
+  }
   const HiddenShare share{largest, largest - words[3]};
   if (largest != 0 && hidden(placed) && can_hide(placed, {&share, 1}))
     hide(placed, {&share, 1});
@@ -285,6 +293,7 @@ void TileUnit<T>::draw() {
     counters_.frozen_pixels += counts.frozen;
     counters_.opacity_saturated += counts.opacity_saturated;
     counters_.composite_saturated += counts.composite_saturated;
+    find_frozen();
     return;
   }
   // Words of 16 bits saturate; those of 32 bits must not wrap.
@@ -295,6 +304,26 @@ void TileUnit<T>::draw() {
   if (sound_) sound_ = add_splats(tables_.plan, jobs, sheet_.words(), sheet_.row());
   bound_ += waiting_;
   waiting_ = 0;
+}
+
+template <class T>
+void TileUnit<T>::find_frozen() {
+  const auto frozen_row = [&](int x0, int x1, int y) {
+    const PixelState* const row = &picture_[static_cast<std::size_t>(y) * tile_.width];
+    return std::all_of(row + x0, row + x1, [&](const PixelState& pixel) { return lane_.frozen(pixel); });
+  };
+  for (std::size_t by = 0; by < dirty_.size(); ++by) {
+    const int y0 = static_cast<int>(by) << lane_bits_, y1 = std::min(tile_.height, y0 + lanes_);
+    for (std::uint64_t left = dirty_[by] & ~frozen_[by]; left != 0; left &= left - 1) {
+      const int x0 = std::countr_zero(left) << lane_bits_, x1 = std::min(tile_.width, x0 + lanes_);
+      bool all = true;
+      for (int y = y0; y < y1 && all; ++y) all = frozen_row(x0, x1, y);
+      if (!all) continue;
+      frozen_[by] |= std::uint64_t{1} << (x0 >> lane_bits_);
+      any_frozen_ = true;
+    }
+    dirty_[by] = 0;
+  }
 }
 
 template <class T>
@@ -473,18 +502,21 @@ void TileUnit<T>::end_tile(const EndTile&) {
         [&](const SheetWord& sums, int x, int y) { compositor_.step(sums, x, y, counters_, counting); },
         [&](int, int, std::uint32_t) { ++counters_.dirty_blocks; });
   }
-  TilePixels out{
-      .tile = tile_.tile, .x = tile_.x, .y = tile_.y, .width = tile_.width, .height = tile_.height, .words = {}};
-  out.words.reserve(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
+  out_.tile = tile_.tile;
+  out_.x = tile_.x;
+  out_.y = tile_.y;
+  out_.width = tile_.width;
+  out_.height = tile_.height;
+  out_.words.resize(static_cast<std::size_t>(tile_.width) * tile_.height * 4);
+  std::uint32_t* to = out_.words.data();
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
       const PixelState& pixel =
           halo_ > 0 ? compositor_.at(x, y) : picture_[static_cast<std::size_t>(y) * tile_.width + x];
-      const auto words = pixel_out_(tile_.mode, pixel, counting);
-      out.words.insert(out.words.end(), words.begin(), words.end());
+      for (const std::uint32_t word : pixel_out_(tile_.mode, pixel, counting)) *to++ = word;
     }
   }
-  pixels_.on_tile(std::move(out));
+  pixels_.on_tile(std::move(out_));
 }
 
 template class TileUnit<std::uint16_t>;

@@ -86,20 +86,15 @@ class TileUnit final : public RecordSink {
   PlacedFootprint place(const EllipseRecord& record, std::unique_ptr<std::uint16_t[]>* kept = nullptr);
   void add(const PlacedFootprint& placed, const std::array<std::uint32_t, 4>& colour) {
     count(placed, 1);
-    if (samples_)
-      counters_.pixels_composited += placed.weighted;
-    else
-      touch(placed, dirty_);
+    if (samples_) counters_.pixels_composited += placed.weighted;
+    touch(placed, dirty_);
     if (placed.weighted != 0) put(job_of(placed, colour), placed.set);
   }
   /// Whether no picture depends on the splat in this sheet or a later one: hide() may then replace add().
   bool hidden(const PlacedFootprint& placed) const {
     if (samples_ || halo_ > 0) return false;
     if (placed.weighted == 0) return true;
-    bool frozen = any_frozen_ && (tables_.plan.hides || !counts_);
-    for (std::size_t by = placed.first; by <= placed.last; ++by)
-      frozen = frozen && (placed.columns & ~frozen_[by]) == 0;
-    return frozen;
+    return any_frozen_ && (tables_.plan.hides || !counts_) && frozen(placed);
   }
   // With Counts::None, records wait for their sheets and are left out once they are hidden.
   WaitingRecord record(const PlacedFootprint& placed) const {
@@ -180,6 +175,12 @@ class TileUnit final : public RecordSink {
     counters_.lanes_inside += records * placed.inside;
     counters_.lanes_weighted += records * placed.weighted;
   }
+  /// Whether all blocks that its windows touch are terminated.
+  bool frozen(const PlacedFootprint& placed) const {
+    for (std::size_t by = placed.first; by <= placed.last; ++by)
+      if ((placed.columns & ~frozen_[by]) != 0) return false;
+    return true;
+  }
   static void touch(const PlacedFootprint& placed, std::vector<std::uint64_t>& dirty) {
     for (std::size_t by = placed.first; by <= placed.last; ++by) dirty[by] |= placed.columns;
   }
@@ -195,6 +196,8 @@ class TileUnit final : public RecordSink {
     waiting_ += largest_product_[set];
     if (++waiting_jobs_ == kJobs) draw();
   }
+  /// Modes 4 and 5: marks blocks whose pixels are all terminated.
+  void find_frozen();
   /// Whether all blocks that the box touches are in the map; true if it touches none.
   bool covers(const std::vector<std::uint64_t>& map, const PixelBox& box) const;
   /// A footprint of windows that cover these pixels, without weights.
@@ -259,6 +262,7 @@ class TileUnit final : public RecordSink {
   std::size_t waiting_jobs_ = 0;
   std::vector<std::uint16_t> room_;  ///< weights of waiting jobs
   std::size_t room_taken_ = 0;
+  TilePixels out_;  ///< keeps its memory if the sink leaves it
   Counters counters_, before_;
   std::uint64_t hidden_splats_ = 0;
 };

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
+#include <functional>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
@@ -64,13 +65,25 @@ bool reachable(const scene::GaussianScene& scene, const scene::ProjectedGaussian
          splat.y < scene.camera.height() + reach;
 }
 
+/// Pixels that it may touch.
+Extent box_of(const cmodel::Config& config, const QuantisedGaussian& one) {
+  const EllipseReach box = reach(config, one.shape);
+  const double pixel = std::ldexp(1.0, -config.position_frac_bits), most = gaussian_reach(config);
+  const auto first = [&](double centre, double half) {
+    return static_cast<std::int32_t>(std::floor(centre * pixel - std::min(half, most)));
+  };
+  const auto end = [&](double centre, double half) {
+    return static_cast<std::int32_t>(std::floor(centre * pixel + std::min(half, most))) + 1;
+  };
+  const std::int32_t bottom = end(one.y, box.y);
+  return {first(one.x, box.x), end(one.x, box.x), first(one.y, box.y), bottom, bottom};
+}
+
 }  // namespace
 
 GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
-                             const cmodel::Config& config)
-    : config_(checked(config)),
-      grid_(config, scene.camera.width(), scene.camera.height()),
-      bins_(static_cast<std::size_t>(grid_.count())) {
+                             const cmodel::Config& config, int threads)
+    : config_(checked(config)), grid_(config, scene.camera.width(), scene.camera.height()) {
   report_.tiles = static_cast<std::uint64_t>(grid_.count());
   cmodel::append(preamble_, cmodel::BeginFrame{cmodel::config_hash(config_), grid_.image_width, grid_.image_height,
                                                static_cast<std::uint32_t>(grid_.count())});
@@ -78,17 +91,38 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
   cmodel::append(preamble_, factor_table(config_));
 
   check_low_pass(scene.description, config_);
+  std::vector<GaussianReport> parts((projected.size() + kPart - 1) / kPart);
+  gaussians_.resize(projected.size());
+  parallel_parts(projected.size(), threads, [&](std::size_t part, std::size_t first, std::size_t end) {
+    quantise_all(scene, std::span(projected).subspan(first, end - first), first, parts[part]);
+  });
+  for (const GaussianReport& part : parts) {
+    report_.cut += part.cut;
+    report_.vanished += part.vanished;
+    report_.saturated += part.saturated;
+  }
+  std::erase_if(gaussians_, [](const QuantisedGaussian& one) { return one.empty(); });
+  report_.drawn = gaussians_.size();
+  bins_.emplace(
+      grid_, Bands(grid_, grid_.tile_height), Cells(), 1, gaussians_.size(), threads,
+      [this](std::size_t number) { return gaussians_[number].box; }, [](std::size_t) { return 0; });
+}
+
+void GaussianFrame::quantise_all(const scene::GaussianScene& scene, std::span<const scene::ProjectedGaussian> splats,
+                                 std::size_t first, GaussianReport& report) {
   const Target place = target(Site::EllipseCentre, config_), sample = target(Site::Gaussian, config_);
   const int reach = gaussian_reach(config_);
   const double rim = scene.description.cutoff * scene.description.cutoff;
-  for (const scene::ProjectedGaussian& splat : projected) {
-    report_.cut += too_far(scene, splat, reach) ? 1 : 0;
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    const scene::ProjectedGaussian& splat = splats[i];
+    report.cut += too_far(scene, splat, reach) ? 1 : 0;
     if (!reachable(scene, splat, reach)) continue;
-    QuantisedGaussian words{
-        .x = quantise_to<std::int32_t>(splat.x, place),
-        .y = quantise_to<std::int32_t>(splat.y, place),
-        .colour = {},
-        .shape = ellipse_words(config_, {rim * splat.shape.xx, rim * splat.shape.xy, rim * splat.shape.yy})};
+    QuantisedGaussian& words = gaussians_[first + i];
+    words = {.x = quantise_to<std::int32_t>(splat.x, place),
+             .y = quantise_to<std::int32_t>(splat.y, place),
+             .colour = {},
+             .shape = ellipse_words(config_, {rim * splat.shape.xx, rim * splat.shape.xy, rim * splat.shape.yy}),
+             .box = {}};
     bool saturated = false;
     for (std::size_t c = 0; c < 4; ++c) {
       const double value = splat.opacity * (c < 3 ? splat.colour[static_cast<int>(c)] : 1.0);
@@ -96,44 +130,26 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
       words.colour[c] = static_cast<std::uint32_t>(word.word);
       saturated = saturated || word.saturated;
     }
-    if (std::ranges::all_of(words.colour, [](std::uint32_t word) { return word == 0; })) {
-      ++report_.vanished;
+    if (words.empty()) {
+      ++report.vanished;
       continue;
     }
-    report_.saturated += saturated ? 1 : 0;
-    ++report_.drawn;
-    gaussians_.push_back(words);
-    bin(static_cast<std::uint32_t>(gaussians_.size() - 1));
+    report.saturated += saturated ? 1 : 0;
+    words.box = box_of(config_, words);
   }
 }
 
-void GaussianFrame::bin(std::uint32_t number) {
-  const QuantisedGaussian& one = gaussians_[number];
-  const EllipseReach box = reach(config_, one.shape);
-  const double pixel = std::ldexp(1.0, -config_.position_frac_bits), most = gaussian_reach(config_);
-  // The range [first, end) of tiles along an axis that has `end` tiles.
-  const auto tiles = [&](double centre, double half, int size, int end) {
-    const double from = std::floor((centre - std::min(half, most)) / size), to = (centre + std::min(half, most)) / size;
-    return std::pair(static_cast<int>(std::clamp(from, 0.0, double(end))),
-                     static_cast<int>(std::clamp(std::floor(to) + 1.0, 0.0, double(end))));
-  };
-  const auto [left, right] = tiles(one.x * pixel, box.x, grid_.tile_width, grid_.columns());
-  const auto [top, bottom] = tiles(one.y * pixel, box.y, grid_.tile_height, grid_.rows());
-  for (int row = top; row < bottom; ++row) {
-    for (int column = left; column < right; ++column)
-      bins_[static_cast<std::size_t>(row * grid_.columns() + column)].push_back(number);
-  }
-}
-
-GaussianReport GaussianFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
+template <class Hidden>
+GaussianReport GaussianFrame::emit_tile(int tile, cmodel::RecordSink& sink, const Hidden& hidden) const {
   const int x = grid_.x(tile), y = grid_.y(tile), width = grid_.width(tile), height = grid_.height(tile);
   const std::int32_t pixel = 1 << config_.position_frac_bits;
   std::vector<cmodel::EllipseRecord> records;
   GaussianReport report;
   sink.begin_tile({cmodel::Mode::SampleAdditive, static_cast<std::uint32_t>(tile), x, y, width, height});
   std::uint32_t tag = 0;
-  for (const std::uint32_t number : bins_[static_cast<std::size_t>(tile)]) {
+  for (const std::uint32_t number : bins_->bin(tile, 0, 0)) {
     const QuantisedGaussian& one = gaussians_[number];
+    if (hidden(one)) continue;
     cmodel::EllipseRecord record{.tag = 0,
                                  .x = one.x - x * pixel,
                                  .y = one.y - y * pixel,
@@ -159,6 +175,19 @@ GaussianReport GaussianFrame::emit_tile(int tile, cmodel::RecordSink& sink) cons
   return report;
 }
 
+GaussianReport GaussianFrame::emit_tile(int tile, cmodel::RecordSink& sink) const {
+  return emit_tile(tile, sink, [](const QuantisedGaussian&) { return false; });
+}
+
+template <class Word>
+GaussianReport GaussianFrame::emit_visible(int tile, cmodel::fast::TileUnit<Word>& unit) const {
+  const int x = grid_.x(tile), y = grid_.y(tile);
+  return emit_tile(tile, unit, [&](const QuantisedGaussian& one) {
+    const Extent& box = one.box;
+    return unit.terminated({box.x0 - x, box.y0 - y, box.x1 - x, box.y1 - y});
+  });
+}
+
 GaussianReport GaussianFrame::emit_tile(int tile, const cmodel::BeatSink& sink) const {
   BeatWriter beats(sink);
   return emit_tile(tile, beats);
@@ -176,7 +205,7 @@ GaussianReport GaussianFrame::emit(const cmodel::BeatSink& sink, const Progress&
 
 std::vector<std::uint64_t> GaussianFrame::work() const {
   std::vector<std::uint64_t> out;
-  for (const auto& bin : bins_) out.push_back(bin.size());
+  for (int tile = 0; tile < grid_.count(); ++tile) out.push_back(bins_->count(tile, 0));
   return out;
 }
 
@@ -188,16 +217,16 @@ GaussianReport& operator+=(GaussianReport& report, const GaussianReport& tile) {
 
 namespace {
 
-struct DrawnTile {
+struct Drawn {
   cmodel::Counters counters;
   GaussianReport report;
   UnitReport units;
 };
 
-DrawnTile draw_plain(const GaussianFrame& frame, int tile, cmodel::PixelSink& pixels) {
+Drawn draw_plain(const GaussianFrame& frame, int tile, cmodel::PixelSink& pixels) {
   cmodel::Model device(frame.config(), cmodel::StreamScope::Subset, pixels);
   device.consume(frame.preamble());
-  DrawnTile out;
+  Drawn out;
   out.report = frame.emit_tile(tile, [&](std::span<const cmodel::Beat> beats) { device.consume(beats); });
   device.finish();
   out.counters = device.counters();
@@ -205,49 +234,95 @@ DrawnTile draw_plain(const GaussianFrame& frame, int tile, cmodel::PixelSink& pi
   return out;
 }
 
-/// Falls back to the plain unit if the fast one gives the tile up.
-template <class Word>
-DrawnTile draw_fast(const GaussianFrame& frame, const cmodel::fast::FrameTables& tables, int tile,
-                    cmodel::PixelSink& pixels) {
-  cmodel::fast::TileUnit<Word> unit(tables, pixels);
-  DrawnTile out;
-  out.report = frame.emit_tile(tile, unit);
-  if (!unit.sound()) {
-    out = draw_plain(frame, tile, pixels);
-    out.units.redone = 1;
-    return out;
-  }
-  out.counters = unit.counters();
-  out.units.fast = 1;
+void add(Drawn& to, const Drawn& more) {
+  to.counters += more.counters;
+  to.report += more.report;
+  to.units += more.units;
+}
+
+/// Calls draw(tile, drawn) for all tiles, the longest first, on threads that each have a `Painter`.
+template <class Painter, class... Of>
+Drawn draw_tiles(const GaussianFrame& frame, const RenderOptions& options, Of&... of) {
+  const std::vector<std::uint64_t> work = frame.work();
+  std::vector<std::size_t> order(work.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t tile) { return work[tile]; });
+  std::vector<Drawn> drawn(std::min(thread_count(options.threads), work.size()));
+  std::atomic<std::size_t> next{0}, done{0};
+  parallel_for(drawn.size(), options.threads, [&](std::size_t worker) {
+    Painter painter(frame, of...);
+    for (std::size_t i = next++; i < order.size(); i = next++) {
+      painter.draw(static_cast<int>(order[i]), drawn[worker]);
+      if (options.progress) options.progress(++done, order.size());
+    }
+    drawn[worker].counters += painter.counters();
+  });
+  Drawn out;
+  for (const Drawn& one : drawn) add(out, one);
   return out;
 }
+
+struct PlainPainter {
+  const GaussianFrame& frame;
+  cmodel::PixelSink& pixels;
+  void draw(int tile, Drawn& to) { add(to, draw_plain(frame, tile, pixels)); }
+  static cmodel::Counters counters() { return {}; }
+};
+
+/// Falls back to the plain unit for tiles that the fast one gives up.
+template <class Word>
+class FastPainter {
+ public:
+  FastPainter(const GaussianFrame& frame, cmodel::PixelSink& pixels, const cmodel::fast::FrameTables& tables,
+              const bool& counts)
+      : frame_(frame),
+        pixels_(pixels),
+        counts_(counts),
+        unit_(tables, pixels, counts ? cmodel::fast::Counts::All : cmodel::fast::Counts::None) {}
+
+  void draw(int tile, Drawn& to) {
+    const std::uint64_t hidden_before = unit_.hidden_splats();
+    const GaussianReport report = counts_ ? frame_.emit_tile(tile, unit_) : frame_.emit_visible(tile, unit_);
+    if (unit_.sound()) {
+      to.report += report;
+      ++to.units.fast;
+      to.units.hidden_splats += unit_.hidden_splats() - hidden_before;
+    } else {
+      add(to, draw_plain(frame_, tile, pixels_));
+      ++to.units.redone;
+    }
+  }
+  const cmodel::Counters& counters() const { return unit_.counters(); }
+
+ private:
+  const GaussianFrame& frame_;
+  cmodel::PixelSink& pixels_;
+  bool counts_;
+  cmodel::fast::TileUnit<Word> unit_;
+};
 
 }  // namespace
 
 GaussianRender render_gaussians(const GaussianFrame& frame, const RenderOptions& options) {
   const TileGrid& grid = frame.grid();
   FrameSink pixels(frame.config(), grid.image_width, grid.image_height);
-  const std::vector<std::uint64_t> work = frame.work();
   GaussianRender out{.frame = {}, .counters = {}, .report = frame.report(), .units = {}};
   std::optional<cmodel::fast::FrameTables> tables;
   if (options.unit == Unit::Fast)
     tables = cmodel::fast::frame_tables(frame.config(), frame.preamble(), {.ellipses = true, .samples = true},
                                         &out.units.why_plain);
-  if (tables) out.units.vectors = cmodel::fast::vector_target();
-  std::vector<DrawnTile> tiles(work.size());
-  std::atomic<std::size_t> done{0};
-  parallel_for(work, options.threads, [&](std::size_t number) {
-    const int tile = static_cast<int>(number);
-    tiles[number] = !tables               ? draw_plain(frame, tile, pixels)
-                    : tables->plan.narrow ? draw_fast<std::uint16_t>(frame, *tables, tile, pixels)
-                                          : draw_fast<std::uint32_t>(frame, *tables, tile, pixels);
-    if (options.progress) options.progress(done.fetch_add(1) + 1, work.size());
-  });
-  for (const DrawnTile& tile : tiles) {
-    out.counters += tile.counters;
-    out.report += tile.report;
-    out.units += tile.units;
+  Drawn drawn;
+  if (!tables) {
+    drawn = draw_tiles<PlainPainter>(frame, options, pixels);
+  } else {
+    out.units.vectors = cmodel::fast::vector_target();
+    out.counted = options.counters;
+    drawn = tables->plan.narrow ? draw_tiles<FastPainter<std::uint16_t>>(frame, options, pixels, *tables, out.counted)
+                                : draw_tiles<FastPainter<std::uint32_t>>(frame, options, pixels, *tables, out.counted);
   }
+  out.counters = drawn.counters;
+  out.report += drawn.report;
+  out.units += drawn.units;
   out.frame = pixels.take();
   return out;
 }

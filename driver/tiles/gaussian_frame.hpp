@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/tile_bins.hpp"
 #include "scene/gaussians/projected_gaussian.hpp"
+
+namespace fastsplat::cmodel::fast {
+template <class Word>
+class TileUnit;
+}
 
 namespace fastsplat::driver {
 
@@ -43,14 +49,17 @@ struct QuantisedGaussian {
   std::int32_t x = 0, y = 0;  ///< 2^-pf pixel
   std::array<std::uint32_t, 4> colour{};
   cmodel::EllipseShape shape;
+  Extent box;  ///< pixels that it may touch
+
+  bool empty() const { return (colour[0] | colour[1] | colour[2] | colour[3]) == 0; }
 };
 
 class GaussianFrame {
  public:
   /// `projected` from project_all(). UserError (Usage) where the configuration has no ellipses or does not composite
-  /// every sample.
+  /// every sample. `threads` (0: all cores) never change it.
   GaussianFrame(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
-                const cmodel::Config& config);
+                const cmodel::Config& config, int threads = 0);
 
   const cmodel::Config& config() const { return config_; }
   const TileGrid& grid() const { return grid_; }
@@ -58,7 +67,10 @@ class GaussianFrame {
   std::span<const cmodel::Beat> preamble() const { return preamble_; }
   /// begin_tile .. end_tile. Returns the tile's contribution to the report. Tiles may be emitted in parallel.
   GaussianReport emit_tile(int tile, cmodel::RecordSink& sink) const;
-  /// The same as beats.
+  /// The same, for a unit that does not count: Gaussians whose pixels are all terminated are left out.
+  template <class Word>
+  GaussianReport emit_visible(int tile, cmodel::fast::TileUnit<Word>& unit) const;
+  /// All of them, as beats.
   GaussianReport emit_tile(int tile, const cmodel::BeatSink& sink) const;
   /// Preamble and all tiles in order: a subset stream, without end_frame.
   GaussianReport emit(const cmodel::BeatSink& sink, const Progress& progress = {}) const;
@@ -68,13 +80,17 @@ class GaussianFrame {
   std::vector<std::uint64_t> work() const;
 
  private:
-  void bin(std::uint32_t number);
+  /// Writes the words of `splats` from gaussians_[first] on; they stay empty where nothing is drawn.
+  void quantise_all(const scene::GaussianScene& scene, std::span<const scene::ProjectedGaussian> splats,
+                    std::size_t first, GaussianReport& report);
+  template <class Hidden>
+  GaussianReport emit_tile(int tile, cmodel::RecordSink& sink, const Hidden& hidden) const;
 
   cmodel::Config config_;
   TileGrid grid_;
   std::vector<cmodel::Beat> preamble_;
-  std::vector<QuantisedGaussian> gaussians_;      ///< nearest first
-  std::vector<std::vector<std::uint32_t>> bins_;  ///< per tile, nearest first; some may meet no pixel of it
+  std::vector<QuantisedGaussian> gaussians_;  ///< nearest first
+  std::optional<TileBins> bins_;              ///< per tile, nearest first; some may meet no pixel of it
   GaussianReport report_;
 };
 
@@ -83,8 +99,9 @@ GaussianReport& operator+=(GaussianReport& report, const GaussianReport& tile);
 struct GaussianRender {
   cmodel::Frame frame;
   cmodel::Counters counters;
-  GaussianReport report;
+  GaussianReport report;  ///< if not `counted`, without Gaussians and records that can change no pixel
   UnitReport units;
+  bool counted = true;  ///< if not, counters are of what can change a pixel
 };
 
 /// Renders with the integer model, tiles in parallel, without bands.

@@ -175,9 +175,8 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
 
 Image to_image(const cmodel::Frame& frame) {
   Image image(frame.width, frame.height, 4);
-  for (std::size_t i = 0; i < frame.words.size(); ++i) {
-    image.data[i] = static_cast<float>(std::ldexp(static_cast<double>(frame.words[i]), -frame.frac_bits));
-  }
+  const double unit = std::ldexp(1.0, -frame.frac_bits);
+  for (std::size_t i = 0; i < frame.words.size(); ++i) image.data[i] = static_cast<float>(frame.words[i] * unit);
   return image;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel/parallel.hpp"
 #include "scene/gaussians/harmonics.hpp"
 
 namespace fastsplat::scene {
@@ -17,10 +18,18 @@ glm::dvec3 world_position(const GaussianScene& scene, const Gaussian& gaussian) 
   return scene.turn * (glm::dvec3(gaussian.position) - scene.middle);
 }
 
-/// The camera's axes as the rows of W.
-glm::dmat3 view_of(const Camera& camera) {
-  return glm::transpose(glm::dmat3(camera.right(), camera.down(), camera.direction()));
-}
+/// What all Gaussians of a view share.
+struct View {
+  glm::dmat3 to_view;  ///< W: the camera's axes as its rows
+  glm::dmat3 turn;     ///< from the file's axes to the camera's
+  glm::dmat3 turn_back, file_axes;
+
+  explicit View(const GaussianScene& scene)
+      : to_view(glm::transpose(glm::dmat3(scene.camera.right(), scene.camera.down(), scene.camera.direction()))),
+        turn(to_view * scene.turn),
+        turn_back(glm::transpose(turn)),
+        file_axes(glm::transpose(scene.turn)) {}
+};
 
 /// J Sigma_view J^T for the upper two rows of J.
 ScreenShape squeezed(const glm::dmat3& sigma, const glm::dvec3& row_x, const glm::dvec3& row_y) {
@@ -45,20 +54,16 @@ bool meets_picture(const GaussianScene& scene, const ProjectedGaussian& splat) {
          splat.y - down < scene.camera.height() - 1.0;
 }
 
-}  // namespace
-
-bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out) {
+bool project(const GaussianScene& scene, const View& seen, std::uint32_t number, ProjectedGaussian& out) {
   const Gaussian& gaussian = scene.cloud->gaussians[number];
   const Camera& camera = scene.camera;
   const glm::dvec3 world = world_position(scene, gaussian);
-  const glm::dmat3 to_view = view_of(camera);
-  const glm::dvec3 view = to_view * world;
+  const glm::dvec3 view = seen.to_view * world;
   const bool perspective = camera.projection() == Projection::Perspective;
   if (perspective && camera.eye_distance() + view.z < kNear * camera.eye_distance()) return false;
 
   const ScreenPoint at = camera.project(world);
-  const glm::dmat3 turn = to_view * scene.turn;
-  const glm::dmat3 sigma = turn * covariance(gaussian) * glm::transpose(turn);
+  const glm::dmat3 sigma = seen.turn * covariance(gaussian) * seen.turn_back;
   ScreenShape shape = shape_of(scene, sigma, view, at.scale);
   const double unfiltered = std::max(shape.determinant(), 0.0);
   shape.xx += scene.description.low_pass;
@@ -74,24 +79,53 @@ bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian
          .depth = at.depth,
          .shape = shape,
          .opacity = std::min(dimmed * static_cast<double>(gaussian.opacity), kMostAlpha),
-         .colour = colour_at(scene.cloud->harmonics_of(number), glm::transpose(scene.turn) * from_eye)};
+         .colour = colour_at(scene.cloud->harmonics_of(number), seen.file_axes * from_eye)};
   return true;
 }
 
-std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report) {
-  ProjectionReport counts{.gaussians = scene.cloud->gaussians.size()};
-  std::vector<ProjectedGaussian> out;
-  ProjectedGaussian splat;
-  for (std::uint32_t number = 0; number < scene.cloud->gaussians.size(); ++number) {
-    if (!project(scene, number, splat)) {
-      ++counts.near;
-    } else if (!meets_picture(scene, splat)) {
-      ++counts.outside;
-    } else {
-      out.push_back(splat);
+}  // namespace
+
+bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out) {
+  return project(scene, View(scene), number, out);
+}
+
+std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report, int threads) {
+  const std::size_t count = scene.cloud->gaussians.size();
+  struct Part {
+    std::vector<ProjectedGaussian> splats;
+    ProjectionReport counts;
+  };
+  std::vector<Part> parts((count + kPart - 1) / kPart);
+  const View seen(scene);
+  parallel_parts(count, threads, [&](std::size_t number, std::size_t first, std::size_t end) {
+    Part& part = parts[number];
+    ProjectedGaussian splat;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!project(scene, seen, static_cast<std::uint32_t>(i), splat)) {
+        ++part.counts.near;
+      } else if (!meets_picture(scene, splat)) {
+        ++part.counts.outside;
+      } else {
+        part.splats.push_back(splat);
+      }
+    }
+  });
+  ProjectionReport counts{.gaussians = count};
+  std::vector<double> depths;
+  std::vector<const ProjectedGaussian*> all;
+  for (const Part& part : parts) {
+    counts.near += part.counts.near;
+    counts.outside += part.counts.outside;
+    for (const ProjectedGaussian& splat : part.splats) {
+      depths.push_back(splat.depth);
+      all.push_back(&splat);
     }
   }
-  std::ranges::stable_sort(out, {}, &ProjectedGaussian::depth);
+  const std::vector<std::uint32_t> order = stable_order(depths, threads);
+  std::vector<ProjectedGaussian> out(order.size());
+  parallel_parts(out.size(), threads, [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) out[i] = *all[order[i]];
+  });
   if (report != nullptr) *report = counts;
   return out;
 }

@@ -43,8 +43,10 @@ struct ProjectionReport {
 /// Projects one Gaussian. Returns false if it is nearer than the near plane; nothing else is culled here.
 bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out);
 
-/// The Gaussians that meet a pixel, nearest first; at equal depth in the order of the file.
-std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr);
+/// The Gaussians that meet a pixel, nearest first; at equal depth in the order of the file. `threads` (0: all
+/// cores) never change them.
+std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr,
+                                           int threads = 0);
 
 /// The depth at which a Gaussian is densest on the ray through a pixel. Flat ones count as thick as a thousandth of
 /// their length.

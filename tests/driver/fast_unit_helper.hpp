@@ -44,7 +44,7 @@ class UnitsCompared {
            const UnitReport& units);
 
   Targets targets_;
-  std::size_t combinations_ = 0, frames_ = 0, pictures_ = 0, different_ = 0, words_ = 0;
+  std::size_t combinations_ = 0, frames_ = 0, pictures_ = 0, left_out_ = 0, different_ = 0, words_ = 0;
   std::map<std::string, UnitReport> units_;
   std::map<std::string, int> drawn_with_;
 };

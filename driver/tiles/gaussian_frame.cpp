@@ -250,7 +250,7 @@ Drawn draw_tiles(const GaussianFrame& frame, const RenderOptions& options, Of&..
   std::vector<Drawn> drawn(std::min(thread_count(options.threads), work.size()));
   std::atomic<std::size_t> next{0}, done{0};
   parallel_for(drawn.size(), options.threads, [&](std::size_t worker) {
-    Painter painter(frame, of...);
+    Painter painter{frame, of...};
     for (std::size_t i = next++; i < order.size(); i = next++) {
       painter.draw(static_cast<int>(order[i]), drawn[worker]);
       if (options.progress) options.progress(++done, order.size());

@@ -58,10 +58,13 @@ class VerilatedDevice final : public RtlDevice {
     come_to_rest();
     // A few cycles more: pipelines behind the last busy cycle deliver their taps.
     for (int i = 0; i < 16; ++i) cycle();
+    if (irq_known_ && frames_ > 0 && (read(cmodel::kRegIrq.address) & cmodel::kIrqFrame) == 0)
+      wrong("the frame has left, and IRQ bit 0 is 0", "1, as docs/integration.md says");
   }
 
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override {
     expecting_ = true;
+    irq_known_ = false;
     offer(beat);
     for (const std::uint64_t since = cycle_; !cycle();) {
       if (hangs(since)) time_out("no beat accepted");
@@ -75,6 +78,7 @@ class VerilatedDevice final : public RtlDevice {
 
   void drop(std::span<const cmodel::Beat> beats) override {
     const bool before = std::exchange(expecting_, true);
+    irq_known_ = false;
     for (const auto& beat : beats) {
       offer(beat);
       for (const std::uint64_t since = cycle_; !cycle();) {
@@ -91,6 +95,7 @@ class VerilatedDevice final : public RtlDevice {
       if (hangs(since)) time_out("the core takes no beat");
     }
     expecting_ = resetting_ = true;  // an open tile is cut short
+    irq_known_ = false;
     write_register(cmodel::kRegControl.address, cmodel::kControlReset, 0);
     if (!wait) return;
     come_to_rest();
@@ -152,6 +157,7 @@ class VerilatedDevice final : public RtlDevice {
     ports_.wdata_i.drive(word);
     ports_.awvalid_i = ports_.wvalid_i = 1;
     writing_ = true;
+    irq_known_ = irq_known_ && address != cmodel::kRegIrq.address;
     wait_for("no register write accepted", [this] {
       top_->eval();  // ready answers valid within the cycle
       return ports_.awready_o != 0;
@@ -215,10 +221,16 @@ class VerilatedDevice final : public RtlDevice {
     expecting_ = resetting_ = refused_ = false;
   }
 
+  /// Clocks until BUSY is 0. BUSY and IRQ may not report a frame before the sink has taken it: a host would read an old
+  /// picture. IRQ keeps its bits, so an early one shows only in the first frame after a reset.
   void come_to_rest() {
-    for (const std::uint64_t since = cycle_; (read_status() & cmodel::kStatusBusy) != 0 || !tiles_.complete();) {
+    for (const std::uint64_t since = cycle_; (read_status() & cmodel::kStatusBusy) != 0;) {
       if (hangs(since)) time_out("the device does not become idle");
+      if (!irq_known_ || frames_ != 1 || tiles_.complete()) continue;
+      if ((read(cmodel::kRegIrq.address) & cmodel::kIrqFrame) != 0 && !tiles_.complete())
+        wrong("IRQ bit 0 is 1, and pixels of the frame wait", "0 until the sink has taken them");
     }
+    if (!tiles_.complete()) wrong("BUSY is 0, and the sink has not taken all pixels", "1 until it has taken them");
   }
 
   /// True if neither stream has moved for the timeout, counted from `since` at the earliest: a sink may be slow.
@@ -283,7 +295,8 @@ class VerilatedDevice final : public RtlDevice {
     cycle_ = moved_ = 0;
     early_.clear();
     offering_ = pending_ = refused_ = reading_ = writing_ = expecting_ = resetting_ = false;
-    aborted_tiles_ = 0;
+    irq_known_ = true;
+    aborted_tiles_ = frames_ = 0;
     if (ports_.rvalid_o || ports_.bvalid_o || ports_.m_tvalid_o) {
       throw UserError(ExitCode::Simulation,
                       {.where = "after a reset of " + std::to_string(cycles) + " cycles",
@@ -333,6 +346,7 @@ class VerilatedDevice final : public RtlDevice {
     }
     if (ports_.error_o && !refused_ && !expecting_) {
       refused_ = true;
+      irq_known_ = false;
       ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
       throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
                                              .what = "the device refused the stream",
@@ -344,7 +358,7 @@ class VerilatedDevice final : public RtlDevice {
   }
 
   void accept(const cmodel::Beat& beat) {
-    tiles_.accept(beat);
+    if (tiles_.accept(beat) == cmodel::Opcode::EndFrame) ++frames_;
     if (options_.taps != nullptr) options_.taps->accept(beat);
   }
 
@@ -473,6 +487,8 @@ class VerilatedDevice final : public RtlDevice {
   bool expecting_ = false;           ///< a refusal or a cut tile is expected
   bool resetting_ = false;           ///< a soft reset whose end was not awaited
   std::uint64_t aborted_tiles_ = 0;
+  std::uint64_t frames_ = 0;                ///< whose end was accepted since reset was released
+  bool irq_known_ = true;                   ///< since then IRQ was not written, and no beat was dropped or refused
   bool reading_ = false, writing_ = false;  ///< an access was begun whose answer was not taken
   bool was_reset_ = false;                  ///< by a warm reset
   cmodel::Counters counters_;

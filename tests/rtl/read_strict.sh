@@ -14,6 +14,7 @@ for file in "$source"/rtl/*.sv "$source"/rtl/*/*.sv; do
   ! grep '`FASTSPLAT' "$work/alone.sv" || { echo "read_strict.sh: $file uses a macro that it does not include"; exit 1; }
   files=$((files + 1))
 done
+python3 -B "$source/tests/rtl/declared_first.py" "$source"/rtl/*.sv "$source"/rtl/*/*.sv || { echo "read_strict.sh: a signal is used above its declaration"; exit 1; }
 configurations=0
 for config in tiny ellipse faults/cull faults/post faults/westover; do
   "$emit" "$source/configs/$config.toml" >"$work/fastsplat_pkg.sv"

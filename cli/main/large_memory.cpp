@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of programs, not libraries: pictures and volumes lie in huge pages where the system grants them on request.
-// Page by page, the first touch of a picture of 1920 x 1080 costs as much time as drawing 100,000 Gaussians into it.
+// Page by page, first touches took a third of the time of 100,000 Gaussians at 1920 x 1080 on a virtual machine.
 #include <sys/mman.h>
 
 #include <cstddef>

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
@@ -91,7 +89,7 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
   cmodel::append(preamble_, factor_table(config_));
 
   check_low_pass(scene.description, config_);
-  std::vector<GaussianReport> parts((projected.size() + kPart - 1) / kPart);
+  std::vector<GaussianReport> parts(part_count(projected.size()));
   gaussians_.resize(projected.size());
   parallel_parts(projected.size(), threads, [&](std::size_t part, std::size_t first, std::size_t end) {
     quantise_all(scene, std::span(projected).subspan(first, end - first), first, parts[part]);
@@ -243,11 +241,8 @@ void add(Drawn& to, const Drawn& more) {
 /// Calls draw(tile, drawn) for all tiles, the longest first, on threads that each have a `Painter`.
 template <class Painter, class... Of>
 Drawn draw_tiles(const GaussianFrame& frame, const RenderOptions& options, Of&... of) {
-  const std::vector<std::uint64_t> work = frame.work();
-  std::vector<std::size_t> order(work.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t tile) { return work[tile]; });
-  std::vector<Drawn> drawn(std::min(thread_count(options.threads), work.size()));
+  const std::vector<std::size_t> order = longest_first(frame.work());
+  std::vector<Drawn> drawn(std::min(thread_count(options.threads), order.size()));
   std::atomic<std::size_t> next{0}, done{0};
   parallel_for(drawn.size(), options.threads, [&](std::size_t worker) {
     Painter painter{frame, of...};

@@ -95,7 +95,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
     std::vector<ProjectedGaussian> splats;
     ProjectionReport counts;
   };
-  std::vector<Part> parts((count + kPart - 1) / kPart);
+  std::vector<Part> parts(part_count(count));
   const View seen(scene);
   parallel_parts(count, threads, [&](std::size_t number, std::size_t first, std::size_t end) {
     Part& part = parts[number];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over threads: each job once, the most work first, and an exception that ends it soon.
+// Loops and a sort over threads: each job once, the most work first, and an exception that ends it soon.
 #include "base/parallel/parallel.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -33,6 +34,20 @@ TEST(Parallel, TheMostWorkFirstAndEqualOnesInOrder) {
   std::vector<std::size_t> order;
   parallel_for(work, 1, [&](std::size_t i) { order.push_back(i); });
   EXPECT_EQ(order, (std::vector<std::size_t>{1, 3, 4, 0, 2}));
+}
+
+TEST(Parallel, StableOrderOnAnyNumberOfThreadsAndWithoutAWord) {
+  std::vector<double> keys;
+  for (std::uint32_t i = 0; i < 50000; ++i) keys.push_back((i * 2654435761U >> 24) - 100.0);  // 256 values
+  keys.push_back(-0.0);  // equal to the other zeros
+  std::vector<std::uint32_t> expected(keys.size());
+  std::iota(expected.begin(), expected.end(), 0U);
+  std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return keys[i]; });
+  testing::internal::CaptureStderr();
+  for (const int threads : {0, 1, 2, 64}) EXPECT_EQ(stable_order(keys, threads), expected) << threads << " threads";
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_TRUE(stable_order({}, 0).empty());
+  std::printf("[figure] keys of 256 values in order = %zu\n", expected.size());
 }
 
 TEST(Parallel, AnExceptionReachesTheCallerAndNoFurtherJobBegins) {

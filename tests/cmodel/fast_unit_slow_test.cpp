@@ -212,6 +212,7 @@ TEST(FastUnit, RandomStreamsOfSamples) {
   EXPECT_GT(all.samples, 50000u);
   EXPECT_GT(all.cut, 1000u);
   EXPECT_GT(all.frozen, 1000u);
+  EXPECT_GT(all.hidden, 10u);
 }
 
 /// Tables of one set of one window, in which every pixel weighs 1.0 or the largest weight.

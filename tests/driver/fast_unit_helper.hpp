@@ -38,6 +38,7 @@ class UnitsCompared {
   std::size_t combinations() const { return combinations_; }
   std::uint64_t redone() const;
   std::size_t pictures() const { return pictures_; }  ///< drawn without counters
+  std::size_t left_out() const { return left_out_; }  ///< records of Gaussians that pictures do not have
 
  private:
   void add(const std::string& name, const std::string& what, const char* difference, const cmodel::Frame& frame,

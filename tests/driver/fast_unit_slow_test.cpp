@@ -173,6 +173,8 @@ TEST(FastUnit, DrawsGaussiansAsThePlainUnit) {
   }
   compared.finish();
   EXPECT_EQ(compared.combinations(), 12u);
+  EXPECT_GE(compared.pictures(), 12u);
+  EXPECT_GT(compared.left_out(), 0u);
 }
 
 }  // namespace

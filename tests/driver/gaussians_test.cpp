@@ -14,6 +14,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/files/stream_file.hpp"
 #include "driver/splats/ellipse_shape.hpp"
+#include "driver/tables/quantise.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
 #include "driver/tiles/gaussian_windows.hpp"
 #include "driver/tiles/render.hpp"
@@ -368,6 +369,60 @@ TEST(Gaussians, BothUnitsDrawAndCountTheSame) {
     EXPECT_EQ(one.counters.splats, one.report.records);
     EXPECT_EQ(one.counters.tiles, tiles);
   }
+}
+
+// More Gaussians than a part of a thread's work has; some vanish, so that those behind them move up.
+TEST(Gaussians, ThreadsNeverChangeTheStream) {
+  auto cloud = scene::make_synthetic_gaussians("cloud:20000");
+  for (std::size_t i = 0; i < cloud.gaussians.size(); i += 7) cloud.gaussians[i].opacity = 1e-7F;
+  scene::GaussianDescription description;
+  description.width = 200, description.height = 150;
+  const auto scene = scene::build_gaussian_scene(description, std::make_shared<GaussianCloud>(std::move(cloud)));
+  const auto projected = scene::project_all(scene);
+  const auto stream = [&](int threads) {
+    std::vector<cmodel::Beat> beats;
+    const GaussianFrame frame(scene, projected, usual_config(), threads);
+    frame.emit([&](std::span<const cmodel::Beat> more) { beats.insert(beats.end(), more.begin(), more.end()); });
+    EXPECT_GT(frame.report().vanished, 2000U);
+    EXPECT_EQ(frame.report().drawn + frame.report().vanished, projected.size());
+    return beats;
+  };
+  const auto one = stream(1);
+  for (const int threads : {2, 3, 8}) EXPECT_TRUE(stream(threads) == one) << threads << " threads";
+  figure("beats", static_cast<double>(one.size()));
+  EXPECT_GT(one.size(), 20000U);
+}
+
+// Against windows of every Gaussian in every tile: none is missing where a tile begins or ends.
+TEST(Gaussians, EveryTileHasTheGaussiansThatMeetIt) {
+  auto config = usual_config();
+  config.tile_width = 32, config.tile_height = 16;
+  const auto scene = scene_of("shells:2000", 300, 200);
+  const auto projected = scene::project_all(scene);
+  const GaussianFrame frame(scene, projected, config);
+  const Target place = target(Site::EllipseCentre, config);
+  const double rim = scene.description.cutoff * scene.description.cutoff;
+  const int pixel = 1 << config.position_frac_bits;
+  std::uint64_t records = 0;
+  for (int tile = 0; tile < frame.grid().count(); ++tile) {
+    const TileGrid& grid = frame.grid();
+    GaussianReport expected;
+    for (const scene::ProjectedGaussian& splat : projected) {
+      const auto& shape = splat.shape;
+      const auto windows = gaussian_windows(
+          config, ellipse_words(config, {rim * shape.xx, rim * shape.xy, rim * shape.yy}),
+          quantise_to<std::int32_t>(splat.x, place) - grid.x(tile) * pixel,
+          quantise_to<std::int32_t>(splat.y, place) - grid.y(tile) * pixel, grid.width(tile), grid.height(tile));
+      expected.records += windows.size();
+      expected.in_tiles += windows.empty() ? 0 : 1;
+    }
+    const GaussianReport found = frame.emit_tile(tile, [](std::span<const cmodel::Beat>) {});
+    EXPECT_EQ(found.records, expected.records) << "tile " << tile;
+    EXPECT_EQ(found.in_tiles, expected.in_tiles) << "tile " << tile;
+    records += expected.records;
+  }
+  figure("records, tile by tile", static_cast<double>(records));
+  EXPECT_GT(records, 2000U);
 }
 
 // A picture equals that of smaller tiles, except for the rounding of six coefficients at another first pixel.

@@ -124,7 +124,7 @@ TEST_F(LabCommand, DrawsTheSameOfGaussians) {
 TEST_F(LabCommand, OfALinkIsThePages) {
   const std::vector<std::string> links{
       "#lab?volume=shells:24&config=base&size=40x32",
-      "file:///home/me/lab.html#lab?volume=shells%3A24&config=tiny&size=40x32&tf=linear&kernel=smooth"
+      "file:///lab.html#lab?volume=shells%3A24&config=tiny&size=40x32&tf=linear&kernel=smooth"
       "&s.camera.azimuth=77&s.camera.projection=perspective&k.pixel.frac_bits=9&view=mode%3Dside",
       "#lab?config=base&scene=volume+%3D+%22shells%3A24%22%0A%5Bimage%5D%0Awidth+%3D+40%0Aheight+%3D+32%0A"
       "%5Bcamera%5D%0Aelevation+%3D+-20.5%0A%5Bslabs%5D%0Awidth+%3D+2.0%0A"};

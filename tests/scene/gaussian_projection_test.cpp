@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/parallel/parallel.hpp"
 #include "scene/gaussians/harmonics.hpp"
 #include "scene/gaussians/projected_gaussian.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
@@ -155,6 +156,40 @@ TEST(GaussianProjection, SplatsBehindOrOutsideAreCulledAndTheRestSorted) {
   EXPECT_TRUE(std::ranges::is_sorted(all, {}, &ProjectedGaussian::depth));
   EXPECT_EQ(all.front().number, usual + 2) << "nearest first";
   figure("drawn", static_cast<double>(all.size()));
+}
+
+// Several parts of Gaussians, and many at equal depths: the order is that of the file.
+TEST(GaussianProjection, ThreadsNeverChangeTheOrder) {
+  GaussianCloud cloud = make_synthetic_gaussians("cloud:20000");
+  for (std::size_t i = 0; i + 5 < cloud.gaussians.size(); i += 3)
+    cloud.gaussians[i + 5].position = cloud.gaussians[i].position;
+  const GaussianScene scene = scene_of(cloud, view(Projection::Perspective));
+  ProjectionReport counts;
+  const auto all = project_all(scene, &counts, 1);
+  std::size_t equal_depths = 0, checked = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ProjectedGaussian alone;
+    ASSERT_TRUE(project(scene, all[i].number, alone));
+    EXPECT_EQ(alone.x, all[i].x);
+    EXPECT_EQ(alone.depth, all[i].depth);
+    ++checked;
+    if (i == 0) continue;
+    ASSERT_LE(all[i - 1].depth, all[i].depth);
+    if (all[i - 1].depth != all[i].depth) continue;
+    ++equal_depths;
+    ASSERT_LT(all[i - 1].number, all[i].number);
+  }
+  for (const int threads : {2, 3, 8}) {
+    ProjectionReport report;
+    const auto same = project_all(scene, &report, threads);
+    EXPECT_TRUE(std::ranges::equal(same, all, {}, &ProjectedGaussian::number, &ProjectedGaussian::number)) << threads;
+    EXPECT_EQ(report.near, counts.near);
+    EXPECT_EQ(report.outside, counts.outside);
+  }
+  figure("Gaussians in several parts", static_cast<double>(checked));
+  figure("pairs at equal depths", static_cast<double>(equal_depths));
+  EXPECT_GT(checked, 3 * kPart);
+  EXPECT_GT(equal_depths, 1000U);
 }
 
 // The depth of the maximum along a ray, against a search along it.

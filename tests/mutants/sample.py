@@ -22,7 +22,8 @@ FIXED = [
     ("assign write = awvalid_i && wvalid_i && !bvalid_o;", "&& becomes || of awvalid_i && wvalid_i", "registers"),
     ("else counter_q[n] <= counter_q[n] + CB'(increments_i[16*n+:16]);", "dropped", "random"),
     ("ready_o <= moves || !(spare_q || taken);", "without its right side of moves || !(spare_q || taken)", "hazards"),
-    ("tiles_q <= tiles + 2'(pixels_valid && pixels_ready && last);", "dropped", "refusals"),
+    ("tiles_q <= tiles + 2'(pixels_valid && pixels_ready && last);", "dropped", "random"),
+    ("fastsplat_pkg::REG_ERROR: rdata_o <= {16'd0, error_opcode_i, error_rule_i};", "dropped", "refusals"),
 ]
 # (program, line, name, test): of what lies around the core.
 OVER_TESTS = [

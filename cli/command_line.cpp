@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <map>
+#include <new>
 #include <span>
 #include <sstream>
 
@@ -213,6 +215,26 @@ std::vector<std::string> flags_of(const std::string& subcommand, const std::vect
   return flag_names(*found);
 }
 
+int run_program(int argc, const char* const* argv) {
+  try {
+    const Action action = parse(argc, argv);
+    remember_command(std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
+    return static_cast<int>(action());
+  } catch (const UserError& error) {
+    print_error(error.what());
+    return static_cast<int>(exit_code_of(error));
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory; use a smaller volume or --size");
+    return static_cast<int>(machine_exit_code(ExitCode::Input));
+  } catch (const std::exception& error) {
+    print_error(std::string("internal: ") + error.what() + "; please report it with the command line");
+    return static_cast<int>(ExitCode::Internal);
+  } catch (...) {
+    print_error("internal: unknown exception; please report it with the command line");
+    return static_cast<int>(ExitCode::Internal);
+  }
+}
+
 Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& subcommands) {
   CommandLine line(subcommands);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
@@ -245,7 +267,6 @@ Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& s
   } catch (const CLI::ParseError& error) {
     misused(name, error.what());
   }
-  if (this_command().empty()) remember_command(words);  // a plan parses other commands later
   return [action, words] {
     try {
       return action();

@@ -13,6 +13,9 @@ namespace fastsplat::cli {
 /// that print.
 Action parse(int argc, const char* const* argv, const std::vector<Subcommand>& subcommands = all_subcommands());
 
+/// Parses, calls, prints an error and returns the exit code (docs/guide/reference.md, "Exit codes").
+int run_program(int argc, const char* const* argv);
+
 /// All long flags of a subcommand, such as "--size"; UserError (Usage) for unknown subcommands.
 std::vector<std::string> flags_of(const std::string& subcommand,
                                   const std::vector<Subcommand>& subcommands = all_subcommands());

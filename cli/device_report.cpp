@@ -117,6 +117,10 @@ std::string visible_text(const std::string& splats, const std::string& records, 
                      hash_text(cmodel::config_hash(config)), units.vectors);
 }
 
+nlohmann::ordered_json uncounted_json(std::uint64_t visible_splats, std::uint64_t visible_records) {
+  return {{"visible", {{"splats", visible_splats}, {"splat_records", visible_records}}}, {"counters", nullptr}};
+}
+
 std::string to_text(const DeviceReport& report) {
   const std::string name = report.config.name + " " + hash_text(cmodel::config_hash(report.config));
   if (!report.counted) {
@@ -132,6 +136,10 @@ std::string to_text(const DeviceReport& report) {
 
 nlohmann::ordered_json to_json(const DeviceReport& report) {
   nlohmann::ordered_json json{{"config", priced_config_json(report.config)}};
+  if (!report.counted) {
+    json.update(uncounted_json(report.driver.voxels, report.driver.splat_records));
+    return json;
+  }
   json.update(to_json(report.driver));
   if (report.units.fast + report.units.plain > 0) json["units"] = to_json(report.units);
   auto& counts = json["counters"];

@@ -30,7 +30,8 @@ std::string to_text(const driver::DriverReport& report);
 std::string visible_text(const std::string& splats, const std::string& records, const cmodel::Config& config,
                          const driver::UnitReport& units);
 std::string to_text(const DeviceReport& report);
-/// Keys of a subcommand's JSON.
+/// Keys of a subcommand's JSON, here of a picture without counters.
+nlohmann::ordered_json uncounted_json(std::uint64_t visible_splats, std::uint64_t visible_records);
 nlohmann::ordered_json to_json(const driver::UnitReport& units);
 nlohmann::ordered_json to_json(const driver::DriverReport& report);
 nlohmann::ordered_json to_json(const DeviceReport& report);

@@ -110,6 +110,10 @@ Json to_json(const GoldenGaussians& golden) {
 
 Json to_json(const DeviceGaussians& device) {
   Json json{{"config", priced_config_json(device.config)}, {"projection", to_json(device.report.projection)}};
+  if (!device.counted) {
+    json.update(uncounted_json(device.report.in_tiles, device.report.records));
+    return json;
+  }
   json["driver"] = {{"drawn", device.report.drawn},         {"vanished", device.report.vanished},
                     {"saturated", device.report.saturated}, {"cut", device.report.cut},
                     {"in_tiles", device.report.in_tiles},   {"records", device.report.records},
@@ -254,7 +258,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
       ProgressBar bar(arguments.engine, watching(arguments.common));
       render = driver::render_gaussians(*frame, {.threads = arguments.common.threads,
                                                  .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
-                                                 .counters = arguments.counters || !arguments.common.json.empty(),
+                                                 .counters = arguments.counts(),
                                                  .progress = bar.callback()});
     }
     DeviceGaussians device{*config, render.report, render.counters, render.units, render.counted};

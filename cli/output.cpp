@@ -65,11 +65,8 @@ bool write_stdout(std::string_view text) {
 }
 
 bool stderr_is_terminal() {
-  static const bool terminal = [] {
-    const char* kind = std::getenv("TERM");
-    return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
-  }();
-  return terminal;
+  const char* kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
 }
 
 bool stderr_has_colour() { return stderr_is_terminal() && !set("NO_COLOR"); }

@@ -56,8 +56,7 @@ Action parse_words(const plan::Words& words, const std::vector<Subcommand>& subc
 }
 
 /// Hash of a scene's settings and the bytes of the files it names; their paths do not count.
-std::string hash_of_scene(const SceneFlags& flags) {
-  scene::SceneDescription description = describe(flags);
+std::string hash_of_scene(scene::SceneDescription description) {
   const scene::SceneDescription plain;
   std::uint64_t hash = kFnv1aStart;
   for (const auto& path : inputs_of_volume(description.volume)) hash = fnv1a(fnv1a(hash, "volume"), hash_of_file(path));
@@ -69,16 +68,23 @@ std::string hash_of_scene(const SceneFlags& flags) {
   return hash_text(fnv1a(hash, scene::to_toml(description)));
 }
 
-/// Hash of the scene that `settings` describe, cached.
-std::string scene_hash(const plan::Settings& settings) {
+SceneFlags& scene_flags() {
   static SceneFlags flags;
+  return flags;
+}
+
+/// `render` with the flags of a scene only; parsing fills scene_flags().
+const std::vector<Subcommand>& scene_render() {
   static const std::vector<Subcommand> subcommands{{"render", "", [](Options& options) {
-                                                      flags = {};
-                                                      declare(options, flags);
+                                                      scene_flags() = {};
+                                                      declare(options, scene_flags());
                                                       return Action([] { return ExitCode::Pass; });
                                                     }}};
-  static const auto names = flags_of("render", subcommands);
-  static std::map<std::string, std::string> known;
+  return subcommands;
+}
+
+plan::Words scene_words(const plan::Settings& settings) {
+  static const auto names = flags_of("render", scene_render());
   plan::Words words{"render"};
   for (const auto& [name, value] : settings) {
     if (!has(names, "--" + name)) continue;
@@ -89,11 +95,14 @@ std::string scene_hash(const plan::Settings& settings) {
       words.push_back("--" + name);
     }
   }
-  auto& hash = known[plan::shell_line(words)];
-  if (hash.empty()) {
-    parse_words(words, subcommands);
-    hash = hash_of_scene(flags);
-  }
+  return words;
+}
+
+/// Hash of the scene that `settings` describe, cached.
+std::string scene_hash(const plan::Settings& settings) {
+  static std::map<std::string, std::string> known;
+  auto& hash = known[plan::shell_line(scene_words(settings))];
+  if (hash.empty()) hash = hash_of_scene(scene_of(settings));
   return hash;
 }
 
@@ -151,6 +160,11 @@ plan::Vocabulary plan_vocabulary() {
   return {.flags_of = [](const std::string& subcommand) { return known_flags(subcommand); },
           .check = [](const plan::Words& words) { parse_words(words, named_by(words)); },
           .content = content_of};
+}
+
+scene::SceneDescription scene_of(const plan::Settings& settings) {
+  parse_words(scene_words(settings), scene_render());
+  return describe(scene_flags());
 }
 
 void require_content(const plan::Plan& plan, const std::string& plan_file) {

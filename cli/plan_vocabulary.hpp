@@ -5,10 +5,14 @@
 #include <string>
 
 #include "analysis/sweep/make.hpp"
+#include "scene/scene.hpp"
 
 namespace fastsplat::cli {
 
 plan::Vocabulary plan_vocabulary();
+
+/// The scene that the settings of a case describe.
+scene::SceneDescription scene_of(const plan::Settings& settings);
 
 /// UserError (Input) if the content behind the names of the plan's cases has changed since it was made: an edited file
 /// or another program. The error asks to make `plan_file` again.

@@ -2,7 +2,6 @@
 #include "cli/process.hpp"
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -23,8 +22,6 @@ extern "C" void end_on_signal(int signal) {
 }  // namespace
 
 void prepare_process() {
-  // A child of `plan run` is started through /proc/self/exe; without this the system would name it "exe".
-  ::prctl(PR_SET_NAME, "fastsplat");
   // Opened in the wrong direction, so that using them still fails.
   if (::fcntl(STDIN_FILENO, F_GETFD) < 0) ::open("/dev/null", O_WRONLY);
   if (::fcntl(STDOUT_FILENO, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);

@@ -19,6 +19,8 @@ void declare(Options& options, RenderArguments& to) {
   options.flag("--counters", to.counters,
                "cmodel: visit and count also what no pixel depends on, as the device does; same picture, slower (--json "
                "and --plain do so, too)");
+  options.flag("--no-counters", to.no_counters,
+               "cmodel: leave the counters out even with --json, unless --counters or --plain is given");
   options.flag("--plain", to.plain,
                "golden, cmodel: use the plain implementation (cmodel: the unit that the RTL is checked against); same "
                "picture, slower");

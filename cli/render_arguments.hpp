@@ -26,6 +26,7 @@ struct RenderArguments {
   WaveFlags wave;          ///< rtl
   bool check = false;      ///< rtl: compares every tap with the model
   bool counters = false;   ///< cmodel: counts what no pixel depends on, too
+  bool no_counters = false;  ///< cmodel: does not count for the JSON alone
   bool plain = false;      ///< golden, cmodel: the plain implementation instead of the fast one
   // Animation: names in `out` and `raw` contain a run of '#' for the frame number.
   std::optional<std::string> orbit;  ///< "A..B", degrees
@@ -33,7 +34,9 @@ struct RenderArguments {
   std::optional<int> frames;
   std::optional<int> keep_memory;  ///< MiB of classified voxels; absent: scene::usual_store_bytes()
   std::string video;               ///< empty for none
-  std::optional<double> rate;  ///< of the video, frames a second
+  std::optional<double> rate;      ///< of the video, frames a second
+
+  bool counts() const { return counters || (!common.json.empty() && !no_counters); }
 };
 
 void declare(Options& options, RenderArguments& to);

@@ -10,8 +10,10 @@
 #include "base/machine_error.hpp"
 #include "scene/capability.hpp"
 #include "scene/content_fit.hpp"
+#include "scene/kept_volumes.hpp"
 #include "scene/ripple.hpp"
 #include "scene/settings.hpp"
+#include "scene/splat_store.hpp"
 #include "scene/volume/volume_file.hpp"
 #include "scene/xray_exposure.hpp"
 
@@ -75,6 +77,11 @@ std::string terraces(const Scene& scene) {
 Scene build_scene(const SceneDescription& description) {
   check_limits(description);
   check_capability(description, kOffersAll);
+  if (const auto [volume, store] = kept_volume(description); volume) {
+    Scene scene = build_scene(description, volume);
+    if (store && store->serves(scene)) scene.store = store;
+    return scene;
+  }
   volume::ReadOptions reading;
   if (description.nan_as) reading.nan_as = static_cast<float>(*description.nan_as);
   return build_scene(description, named_at(description.volume_place, [&] {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kVoxels = std::size_t{volume::Brick::kSide} * volume::Brick::kSide * volume::Brick::kSide;
 
-void fill(BrickSplats& out, const volume::Volume& volume, const VoxelSplats& voxels, const volume::Brick& brick) {
+void classify(BrickSplats& out, const volume::Volume& volume, const VoxelSplats& voxels, const volume::Brick& brick) {
   std::array<std::array<float, kVoxels>, 3> rows;
   out.splats.clear();
   glm::ivec3 at;
@@ -44,14 +44,18 @@ void SplatStore::clear() {
   bytes_ = 0;
 }
 
-void SplatStore::open(const Scene& scene) {
+SplatStore::Key SplatStore::key_of(const Scene& scene) {
   const bool shaded = scene.shading.on;
-  Key key{.volume = scene.volume,
+  return {.volume = scene.volume,
           .transfer_function = scene.transfer_function,
           .shaded = shaded,
           .gradient_floor = shaded ? scene.shading.gradient_floor : 0.0,
           .opacity_scale = scene.description.opacity_scale,
           .texture = scene.description.texture};
+}
+
+void SplatStore::open(const Scene& scene) {
+  Key key = key_of(scene);
   if (key == key_) return;
   clear();
   if (key.volume != key_.volume) bricks_ = volume::bricks_of(*key.volume);
@@ -60,12 +64,19 @@ void SplatStore::open(const Scene& scene) {
   key_ = std::move(key);
 }
 
+void SplatStore::fill(const Scene& scene) {
+  open(scene);
+  const VoxelSplats voxels(scene, SplatKind::Colours, classifier());
+  BrickSplats scratch;
+  for (std::size_t brick = 0; brick < bricks_.size() && bytes_ < most_bytes_; ++brick) splats(voxels, brick, scratch);
+}
+
 const BrickSplats& SplatStore::splats(const VoxelSplats& voxels, std::size_t brick, BrickSplats& scratch) {
   const bool keep = most_bytes_ > 0 && bytes_ < most_bytes_;
   if (most_bytes_ > 0) {
     if (const BrickSplats* known = kept_[brick]) return *known;
   }
-  fill(scratch, *key_.volume, voxels, bricks_[brick]);
+  classify(scratch, *key_.volume, voxels, bricks_[brick]);
   if (!keep) return scratch;
   auto fresh = std::make_unique<const BrickSplats>(scratch);
   const BrickSplats* known = nullptr;

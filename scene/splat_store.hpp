@@ -45,10 +45,14 @@ class SplatStore {
 
   /// To be called before a frame, with no other frame being drawn. Forgets what was made for scenes with other splats.
   void open(const Scene& scene);
+  /// The same, and makes all bricks. On this thread alone.
+  void fill(const Scene& scene);
   const std::vector<volume::Brick>& bricks() const { return bricks_; }
   const Classifier& classifier() const { return *classifier_; }
   /// The splats of a brick, in the store or in `scratch`. `voxels` are those of the scene. For several threads at once.
   const BrickSplats& splats(const VoxelSplats& voxels, std::size_t brick, BrickSplats& scratch);
+  /// Whether it is open for the splats of this scene.
+  bool serves(const Scene& scene) const { return key_of(scene) == key_; }
   std::size_t bytes() const { return bytes_; }  ///< kept
 
  private:
@@ -61,6 +65,7 @@ class SplatStore {
     Texture texture;
     bool operator==(const Key&) const = default;
   };
+  static Key key_of(const Scene& scene);
   void clear();
 
   std::size_t most_bytes_;

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 
@@ -44,9 +46,8 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// In the child, after fork: nothing here may allocate.
-[[noreturn]] void become(const char* program, char* const* words, char* const* environment, int errors,
-                         const sigset_t& mask, pid_t parent) {
+/// In the child.
+[[noreturn]] void become(const Program& program, const Words& words, int errors, const sigset_t& mask, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(128 + SIGKILL);
@@ -54,11 +55,11 @@ double seconds_of(const timeval& time) {
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(nothing, STDOUT_FILENO);
   ::dup2(errors, STDERR_FILENO);
+  ::setenv(kReportMachine, "1", 1);
   ::sigprocmask(SIG_SETMASK, &mask, nullptr);
-  ::execve(program, words, environment);
-  constexpr char kSaid[] = "cannot start the program\n";
-  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kSaid, sizeof kSaid - 1);
-  ::_exit(126);
+  const int code = program(words);
+  std::fflush(nullptr);
+  ::_exit(code);
 }
 
 }  // namespace
@@ -77,18 +78,12 @@ Children::~Children() {
   ::sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
-pid_t Children::start(const std::string& program, const Words& words) {
-  std::vector<char*> argv{const_cast<char*>("fastsplat")};
-  for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  std::string report = std::string(kReportMachine) + "=1";
-  std::vector<char*> environment{report.data()};
-  for (char** variable = environ; *variable != nullptr; ++variable) environment.push_back(*variable);
-  environment.push_back(nullptr);
+pid_t Children::start(const Program& program, const Words& words) {
+  std::fflush(nullptr);  // or parent and child would both write it
   const int errors = ::memfd_create("stderr", MFD_CLOEXEC);
   const pid_t parent = ::getpid();
   const pid_t pid = errors < 0 ? -1 : ::fork();
-  if (pid == 0) become(program.c_str(), argv.data(), environment.data(), errors, before_, parent);
+  if (pid == 0) become(program, words, errors, before_, parent);
   if (pid < 0) {
     const int reason = errno;
     if (errors >= 0) ::close(errors);

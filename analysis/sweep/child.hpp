@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the program as child processes: starts them, waits for them and for signals, ends them.
+// Runs the program in child processes: starts them, waits for them and for signals, ends them.
 #pragma once
 
 #include <signal.h>
 #include <sys/types.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "analysis/sweep/value.hpp"
 
 namespace fastsplat::plan {
+
+/// Runs the words of a command in a fork of this process and returns the exit code.
+using Program = std::function<int(const Words&)>;
 
 /// How a child ended, and its CPU time.
 struct Ended {
@@ -23,7 +27,7 @@ struct Ended {
 
 /// The children of this process, each in its own process group: Ctrl-C reaches only this process, which ends them. No
 /// child outlives this process, however it ends. While the object exists, only wait() receives SIGINT, SIGTERM and
-/// SIGHUP (ignored signals stay ignored). For one thread only.
+/// SIGHUP (ignored signals stay ignored). For a process of one thread only: a fork has no other.
 class Children {
  public:
   Children();
@@ -31,9 +35,9 @@ class Children {
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Starts `program` under the name fastsplat with the arguments `words`. stdin and stdout are /dev/null; the
-  /// environment contains kReportMachine. Throws MachineError if the system cannot start a process.
-  pid_t start(const std::string& program, const Words& words);
+  /// Forks this process, which calls `program`. stdin and stdout are /dev/null; the environment contains
+  /// kReportMachine. Throws MachineError if the system cannot start a process.
+  pid_t start(const Program& program, const Words& words);
 
   /// Waits for the next event: the end of a child, or a signal to stop (nullopt; see signal()).
   std::optional<Ended> wait();

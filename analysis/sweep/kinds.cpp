@@ -13,7 +13,9 @@ std::vector<StepOfKind> steps_of(const std::string& kind) {
              .takes_device = false,
              .has_result = false,
              .shared = "golden.exr"},
-            {.subcommand = "render", .files = {}, .outputs = {"--engine", "cmodel", "--out", "{model.exr}"}},
+            {.subcommand = "render",
+             .files = {},
+             .outputs = {"--engine", "cmodel", "--no-counters", "--out", "{model.exr}"}},
             {.subcommand = "compare", .files = {"{golden.exr}", "{model.exr}"}, .outputs = {}}};
   }
   if (kind == "render") return {{.subcommand = "render", .files = {}, .outputs = {"--out", "{picture.exr}"}}};

@@ -150,7 +150,7 @@ class Maker {
   }
 
   bool takes(const StepOfKind& step, const std::string& name) const {
-    const bool of_device = is_key(name) || name == "config" || name == "index";
+    const bool of_device = is_key(name) || name == "config" || name == "index" || name == "counters";
     if (of_device && !step.takes_device) return false;
     const std::string flag = is_key(name) ? "--set" : "--" + name;
     const auto& flags = flags_.at(step.subcommand);

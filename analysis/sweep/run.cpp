@@ -229,6 +229,7 @@ class Runner {
     fs::remove_all(going.folder, ignored);
     count(going.result);
     if (options_.finished) options_.finished(*going.one, going.result);
+    if (options_.unharmed && !waiting_.empty()) options_.unharmed(*going.one);
     report_progress();
   }
 

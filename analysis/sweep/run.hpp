@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "analysis/sweep/child.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/result.hpp"
 #include "base/progress.hpp"
@@ -14,7 +15,7 @@ namespace fastsplat::plan {
 
 struct RunOptions {
   std::filesystem::path results;  ///< created if absent
-  std::string program;            ///< path of the program to run
+  Program program;
   std::string program_hash;       ///< its hash, part of every result
   Shard shard{};
   std::size_t jobs = 1;          ///< cases at once
@@ -23,6 +24,9 @@ struct RunOptions {
   bool replace_foreign = false;  ///< results of another program are replaced, not refused
   Progress progress{};           ///< counts finished cases of the shard
   std::function<void(const Case&, const CaseResult&)> finished{};  ///< called with each result as it is published
+  /// Called where a case has a result and others wait: what later children share can be prepared here, since a child
+  /// has done the same unharmed.
+  std::function<void(const Case&)> unharmed{};
   /// Called with the message of each case that has no result.
   std::function<void(const Case&, const std::string&)> accident{};
   std::function<void(const std::string&)> note{};

@@ -24,7 +24,7 @@ Value value_from(const nlohmann::ordered_json& json);
 struct Setting {
   std::string name;
   Value value;
-  bool operator==(const Setting&) const = default;
+  auto operator<=>(const Setting&) const = default;
 };
 using Settings = std::vector<Setting>;
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "analysis/sweep/run.hpp"
 #include "base/version.hpp"
+#include "cli/command_line.hpp"
 #include "cli/common.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
@@ -15,6 +17,7 @@
 #include "cli/plan_vocabulary.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/subcommands/subcommands.hpp"
+#include "scene/kept_volumes.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -52,6 +55,48 @@ ExitCode exit_code(const plan::RunSummary& summary) {
   return summary.failed + summary.errors > 0 ? ExitCode::Failed : ExitCode::Pass;
 }
 
+/// The program in a fork of this process: files that it would read or compute are in memory if they were kept.
+int call(const plan::Words& words) {
+  std::vector<const char*> argv{"fastsplat"};
+  for (const auto& word : words) argv.push_back(word.c_str());
+  return run_program(static_cast<int>(argv.size()), argv.data());
+}
+
+/// Keeps volumes while several cases of the shard need them.
+class SharedVolumes {
+ public:
+  SharedVolumes(const plan::Plan& plan, const plan::Shard& shard) {
+    for (std::size_t at = 0; at < plan.cases.size(); ++at) {
+      if (shard.has(at)) ++left_[of(plan.cases[at])];
+    }
+  }
+
+  /// To be called after each case.
+  void done(const plan::Case& one) {
+    const plan::Settings volume = of(one);
+    if (volume.empty()) return;
+    const std::size_t left = --left_[volume];
+    try {
+      if (left >= 4) scene::keep_volume(scene_of(one.settings));
+      if (left == 0) scene::forget_volume(scene_of(one.settings));
+    } catch (const std::exception&) {
+      // It is not kept. A child reports what is wrong.
+    }
+  }
+
+ private:
+  /// What names the volume; empty if nothing does.
+  static plan::Settings of(const plan::Case& one) {
+    plan::Settings out;
+    for (const plan::Setting& setting : one.settings) {
+      if (setting.name == "volume" || setting.name == "scene" || setting.name == "nan-as") out.push_back(setting);
+    }
+    return out;
+  }
+
+  std::map<plan::Settings, std::size_t> left_;
+};
+
 ExitCode run(const PlanRunArguments& arguments) {
   const Output output(arguments.common);
   const plan::Shard shard = plan::shard_from(arguments.shard);
@@ -61,10 +106,11 @@ ExitCode run(const PlanRunArguments& arguments) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int jobs = arguments.jobs > 0 ? arguments.jobs : processors;
   const int threads = arguments.common.threads > 0 ? arguments.common.threads : std::max(1, processors / jobs);
+  SharedVolumes shared(plan, shard);
   ProgressBar bar("plan", watching(arguments.common));
   const auto summary = plan::run(
       plan, {.results = arguments.plan.folder(),
-             .program = "/proc/self/exe",
+             .program = call,
              .program_hash = program_hash(),
              .shard = shard,
              .jobs = static_cast<std::size_t>(jobs),
@@ -77,6 +123,7 @@ ExitCode run(const PlanRunArguments& arguments) {
                    if (result.status != plan::Status::Pass)
                      output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
                  },
+             .unharmed = [&](const plan::Case& one) { shared.done(one); },
              .accident =
                  [&](const plan::Case& one, const std::string& message) {
                    output.warn(fmt::format("case {} has no result and will be run again next time: {}\n  {}", one.id,

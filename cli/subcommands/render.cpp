@@ -63,12 +63,12 @@ void check(const RenderArguments& arguments, Engine engine) {
                  .got = {},
                  .fix = "add --engine rtl"});
   }
-  if (engine != Engine::CModel && arguments.counters) {
-    throw_usage({.where = "--counters",
+  if (engine != Engine::CModel && (arguments.counters || arguments.no_counters)) {
+    throw_usage({.where = arguments.counters ? "--counters" : "--no-counters",
                  .what = "only the cmodel engine can leave counting out",
                  .expected = "--engine cmodel",
                  .got = "--engine " + arguments.engine,
-                 .fix = "leave --counters out"});
+                 .fix = "leave it out"});
   }
   if (engine == Engine::Rtl && arguments.plain) {
     throw_usage({.where = "--plain",
@@ -166,7 +166,7 @@ ExitCode run(const RenderArguments& arguments) {
                     .config = {},
                     .checking = arguments.check ? Checking::EveryTap : Checking::Off,
                     .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
-                    .counters = arguments.counters || !arguments.common.json.empty(),
+                    .counters = arguments.counts(),
                     .threads = arguments.common.threads};
   check(arguments, renderer.engine);
   if (arguments.gaussians.file) return run_gaussians(arguments);

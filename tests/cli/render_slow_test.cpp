@@ -49,6 +49,27 @@ TEST(RenderAndCompare, GoldenAndModelAgreeWithinTheBudgetOfBase) {
               json["psnr_db"].get<double>(), json["max_abs_lsb"].get<double>());
 }
 
+TEST(RenderAndCompare, JsonCountsUnlessToldNotTo) {
+  const TempFolder folder;
+  const auto drawn = [&](const std::string& picture, std::vector<std::string> more) {
+    more.insert(more.end(), {"--engine", "cmodel", "--zoom", "3", "--json", "-", "--raw", folder / picture});
+    const auto result = fastsplat(small_render(more));
+    expect_success(result);
+    return parsed(result.out);
+  };
+  const Json counted = drawn("counted.exr", {}), uncounted = drawn("uncounted.exr", {"--no-counters"}),
+             both = drawn("both.exr", {"--no-counters", "--counters"});
+  const int all = counted["driver"]["splat_records"], visible = uncounted["visible"]["splat_records"];
+  std::printf("[figure] splat records = %d, of them visible = %d (limit < all)\n", all, visible);
+  EXPECT_GT(visible, 0);
+  EXPECT_LT(visible, all);
+  EXPECT_EQ(uncounted["counters"], nullptr);
+  EXPECT_FALSE(uncounted.contains("driver"));
+  EXPECT_EQ(both["counters"], counted["counters"]);
+  EXPECT_EQ(read_bytes(folder / "uncounted.exr"), read_bytes(folder / "counted.exr"));
+  expect_error(fastsplat(small_render({"--no-counters", "-o", folder / "g.exr"})), 2, {"--no-counters", "golden"});
+}
+
 TEST(RenderAndCompare, EveryMethodRendersOnBothEngines) {
   const TempFolder folder;
   for (const std::string method : {"image_aligned", "axis_aligned", "xray"}) {

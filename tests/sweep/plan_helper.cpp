@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/sweep/plan_helper.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -87,6 +89,16 @@ exit 0
   return path.string();
 }
 
+plan::Program executed(const std::string& script) {
+  return [script](const plan::Words& words) {
+    std::vector<char*> argv{const_cast<char*>("fastsplat")};
+    for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(script.c_str(), argv.data());
+    return 126;
+  };
+}
+
 plan::Plan plan_of(const Folder& folder, const std::string& spec) {
   return plan::make(plan::read_spec(folder.write("spec.toml", spec)), vocabulary()).plan;
 }
@@ -94,7 +106,8 @@ plan::Plan plan_of(const Folder& folder, const std::string& spec) {
 plan::RunSummary run(const Folder& folder, const plan::Plan& plan, const std::string& program,
                      const std::string& results, plan::Shard shard, std::size_t jobs) {
   return plan::run(
-      plan, {.results = folder / results, .program = program, .program_hash = "p", .shard = shard, .jobs = jobs});
+      plan,
+      {.results = folder / results, .program = executed(program), .program_hash = "p", .shard = shard, .jobs = jobs});
 }
 
 }  // namespace fastsplat::plan_test

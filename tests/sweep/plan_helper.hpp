@@ -38,6 +38,9 @@ plan::Vocabulary vocabulary();
 /// JSON or half of it (71 to 73). It writes its arguments to FOLDER/log. `before`: shell lines run first.
 std::string script(const Folder& folder, const std::string& before = {});
 
+/// Runs that script.
+plan::Program executed(const std::string& script);
+
 /// Of a specification's text.
 plan::Plan plan_of(const Folder& folder, const std::string& spec);
 

@@ -63,8 +63,9 @@ TEST(PlanProgram, KilledTwiceAndResumedGivesTheSameBytes) {
   EXPECT_TRUE(fs::is_empty(killed + "/.scratch")) << "what the killed ones left is cleared up";
   const std::string bytes = merged(plan, folder / "whole");
   EXPECT_TRUE(merged(plan, killed) == bytes);
-  EXPECT_EQ(Json::parse(bytes)["rows"].size(), 6u);
-  for (const auto& row : Json::parse(bytes)["rows"]) {
+  const Json all = Json::parse(bytes);
+  EXPECT_EQ(all["rows"].size(), 6u);
+  for (const auto& row : all["rows"]) {
     EXPECT_GT(row["metrics"]["psnr_db"].get<double>(), 40.0);
     EXPECT_GT(row["metrics"]["cost"].get<double>(), 0.0);
     EXPECT_GT(row["metrics"]["cycles"].get<double>(), 0.0);
@@ -236,6 +237,44 @@ TEST(PlanProgram, ErrorsInASpecificationAreNamedCorrectly) {
   const auto merge = fastsplat({"plan", "merge", folder / "p.json", "-o", folder / "m.json"});
   expect_success(merge);
   EXPECT_THAT(merge.err, HasSubstr("metric nothing: no result has a number at cycles/none"));
+}
+
+/// Cases whose volume is kept in memory, with the same splats or others, are as their commands
+/// alone: all figures.
+TEST(PlanProgram, CasesThatShareAVolumeAreAsTheirCommands) {
+  const TempFolder folder;
+  const std::string spec = folder.write("spec.toml", R"(
+kind = "compare"
+[constants]
+volume = "shells:20"
+size = 24
+[axes]
+counters = [false, true]
+tf = ["default", "ct-head"]
+shading = ["on", "off"]
+azimuth = [0, 30, 60]
+)");
+  const std::string plan = folder / "plan.json";
+  expect_success(fastsplat({"plan", "make", spec, "-o", plan}));
+  expect_success(fastsplat({"plan", "run", plan, "--jobs", "2"}));
+  Surroundings here;
+  here.folder = folder.path();
+  here.environment = {"PATH=" + fs::path(program()).parent_path().string() + ":" + std::getenv("PATH")};
+  std::size_t compared = 0;
+  const Json all = Json::parse(merged(plan, folder / "plan.results"));
+  for (const auto& row : all["rows"]) {
+    const bool counted = row["command"].get<std::string>().find(" --counters ") != std::string::npos;
+    EXPECT_EQ(row["metrics"].contains("sheet_saturated"), counted) << row["command"];
+    const auto again = run_words({"sh", "-c", row["command"].get<std::string>() + " --json again.json"}, here);
+    expect_success(again);
+    const auto json = Json::parse(read_bytes(folder / "again.json"));
+    for (const char* figure : {"psnr_db", "max_abs_lsb", "rmse_lsb", "mean_abs_lsb", "bias_lsb", "ssim"}) {
+      EXPECT_EQ(json[figure], row["metrics"][figure]) << row["command"];
+      ++compared;
+    }
+  }
+  std::printf("[figure] figures compared = %zu (limit 144)\n", compared);
+  EXPECT_EQ(compared, 144u);
 }
 
 TEST(PlanProgram, ARowsCommandMakesItAgain) {

@@ -95,7 +95,7 @@ TEST(PlanRun, FailuresOfTheMachineAreNotResults) {
   const auto plan = plan_of(folder, "kind = \"cycles\"\n[axes]\nn = [1, 66, 70, 71, 72, 73, 75, 126, 139]\n");
   const std::string program = script(folder);
   std::vector<std::string> messages;
-  plan::RunOptions options{.results = folder / "results", .program = program, .program_hash = "p"};
+  plan::RunOptions options{.results = folder / "results", .program = executed(program), .program_hash = "p"};
   options.accident = [&](const plan::Case&, const std::string& message) { messages.push_back(message); };
   const auto summary = plan::run(plan, options);
   EXPECT_EQ(summary.passed, 1u);
@@ -184,7 +184,7 @@ TEST(PlanMerge, AnotherProgramsResultsAreNeverMixedIn) {
   const auto plan = plan_of(folder, kFive);
   const std::string program = script(folder);
   run(folder, plan, program, "results", {1, 2});
-  plan::RunOptions other{.results = folder / "results", .program = program, .program_hash = "q"};
+  plan::RunOptions other{.results = folder / "results", .program = executed(program), .program_hash = "q"};
   EXPECT_THAT(error_of([&] { plan::run(plan, other); }), HasSubstr("was made by another program, p"));
   EXPECT_EQ(runs(folder), 3u) << "before anything was run";
   other.shard = {2, 2};

@@ -25,11 +25,8 @@ void write_map(const std::string& path, const Image& map) {
   images::write_image(path, map, {{"display", "srgb"}}, {.display = true});
 }
 
-void write_values(const std::string& path, const Image& values, const char* what, const scene::Scene& scene,
-                  const cmodel::Config& config) {
-  images::write_image(
-      path, values,
-      analysis::render_metadata(what, scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)}));
+images::Metadata values_metadata(const char* what, const scene::Scene& scene, const cmodel::Config& config) {
+  return analysis::render_metadata(what, scene, analysis::HardwareConfig{config.name, cmodel::config_hash(config)});
 }
 
 }  // namespace fastsplat::cli

@@ -19,8 +19,7 @@ nlohmann::ordered_json errors_identity(const char* subcommand, const std::string
 
 /// Writes a map with its legend as a display picture.
 void write_map(const std::string& path, const Image& map);
-/// Writes per-pixel values; the metadata identify scene, configuration and `what` ("errors", "bound").
-void write_values(const std::string& path, const Image& values, const char* what, const scene::Scene& scene,
-                  const cmodel::Config& config);
+/// Of values per pixel: identify scene, configuration and `what` ("errors", "bound").
+images::Metadata values_metadata(const char* what, const scene::Scene& scene, const cmodel::Config& config);
 
 }  // namespace fastsplat::cli

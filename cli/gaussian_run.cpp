@@ -203,13 +203,13 @@ Image shown_of(const Image& image, const scene::Display& display, bool linear) {
   return shown;
 }
 
-/// Everything that determines the picture's values: pictures with equal entries are comparable.
-images::Metadata metadata_of(const Result& result, const std::optional<cmodel::Config>& config,
-                             golden::GaussianOrder order) {
-  const auto& scene = result.scene;
+}  // namespace
+
+images::Metadata gaussian_metadata(const std::string& engine, const scene::GaussianScene& scene,
+                                   const std::optional<cmodel::Config>& config, golden::GaussianOrder order) {
   const auto& camera = scene.description.camera;
   images::Metadata metadata{
-      {"engine", result.engine},
+      {"engine", engine},
       {"method", order == golden::GaussianOrder::Pixels ? "gaussians, ordered at every pixel" : "gaussians"},
       {"gaussians", scene.cloud->source},
       {"content_hash", hash_text(scene::content_hash(*scene.cloud))},
@@ -225,8 +225,6 @@ images::Metadata metadata_of(const Result& result, const std::optional<cmodel::C
   }
   return metadata;
 }
-
-}  // namespace
 
 ExitCode run_gaussians(const RenderArguments& arguments) {
   const Output output(arguments.common);
@@ -246,7 +244,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   Result result{.engine = arguments.engine, .scene = scene, .files = {.out = arguments.out, .raw = arguments.raw}};
   scene::ProjectionReport projection;
   const auto projected = scene::project_all(scene, &projection, arguments.common.threads);
-  const images::Metadata metadata = metadata_of(result, config, view.order);
+  const images::Metadata metadata = gaussian_metadata(arguments.engine, scene, config, view.order);
   std::optional<driver::GaussianFrame> frame;
   if (config) frame.emplace(scene, projected, *config, arguments.common.threads);
   output.line(summary(scene));

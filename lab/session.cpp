@@ -185,6 +185,11 @@ const scene::Scene& Session::scene_of(const Request& request) {
   return kept(request.scene).scene;
 }
 
+std::unique_ptr<stages::Chain> Session::chain_of(const Request& request) {
+  return request.gaussians ? std::make_unique<stages::Chain>(gaussians_.of(*request.gaussians).scene, request.config, 1)
+                           : std::make_unique<stages::Chain>(scene_of(request), request.config);
+}
+
 void Session::emit(const Request& request, const cmodel::BeatSink& sink) {
   if (!request.gaussians) {
     driver::CompiledFrame(scene_of(request), request.config).emit(sink);
@@ -256,8 +261,7 @@ Json Session::cycles(const Json& json) {
 
 Json Session::errors(const Json& json, std::vector<Words>& pictures) {
   const Request request = read_request(json);
-  const stages::Chain chain(scene_of(request), request.config);
-  const auto attribution = analysis::attribute(chain, {.quick = true, .threads = 1});
+  const auto attribution = analysis::attribute(*chain_of(request), {.quick = true, .threads = 1});
   pictures.push_back(display_words("blame", analysis::blame_map(attribution)));
   return analysis::to_json(attribution, std::nullopt);
 }
@@ -287,8 +291,8 @@ Json Session::terminated(const Json& json, std::vector<Words>& pictures) {
 
 Json Session::pixel(const Json& json) {
   const Request request = read_request(json);
-  const stages::Chain chain(scene_of(request), request.config);
-  return analysis::to_json(analysis::explain(chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), chain);
+  const auto chain = chain_of(request);
+  return analysis::to_json(analysis::explain(*chain, json.at("x").get<int>(), json.at("y").get<int>(), 1), *chain);
 }
 
 Json Session::histogram(const Json& json) {

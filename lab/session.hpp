@@ -16,6 +16,10 @@
 #include "scene/scene.hpp"
 #include "scene/volume/volume.hpp"
 
+namespace fastsplat::stages {
+class Chain;
+}
+
 namespace fastsplat::lab {
 
 /// A picture of an answer: words as the report's viewer takes them, value = word / scale.
@@ -58,6 +62,8 @@ class Session {
   const Image& golden_of(Kept& kept);
   /// The scene of a request about a volume. Throws UserError for Gaussians.
   const scene::Scene& scene_of(const Request& request);
+  /// Refers to the request's configuration.
+  std::unique_ptr<stages::Chain> chain_of(const Request& request);
   /// Compiles what a request draws, without end_frame.
   void emit(const Request& request, const cmodel::BeatSink& sink);
 

@@ -64,7 +64,7 @@ Json amount_json(const Amount& amount) {
 
 }  // namespace
 
-std::optional<TriedSuggestion> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+std::optional<TriedSuggestion> try_suggestion(const ChainOf& chain_of, const cmodel::Config& config,
                                               const Attribution& attribution, int threads) {
   for (const StepError* step : ranked(attribution)) {
     if (step->share <= 0.0) break;
@@ -72,8 +72,8 @@ std::optional<TriedSuggestion> try_suggestion(const scene::Scene& scene, const c
     if (!found) continue;
     TriedSuggestion out{step->set.name, std::move(*found), {}, {}};
     if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.suggestion.config)};
-    const stages::Chain chain(scene, out.suggestion.config);
-    out.error = amount_of(difference(chain(stages::Mixture::all_device(), threads), attribution.real));
+    const auto chain = chain_of(out.suggestion.config);
+    out.error = amount_of(difference((*chain)(stages::Mixture::all_device(), threads), attribution.real));
     return out;
   }
   return std::nullopt;

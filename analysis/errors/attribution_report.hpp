@@ -2,6 +2,8 @@
 // An attribution as text, as JSON and as maps.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -22,8 +24,10 @@ struct TriedSuggestion {
   std::optional<std::pair<Cost, Cost>> costs;  ///< before and after; only for index.kind rlut, as in rtl/
 };
 
+/// The frame's chain with another configuration, which outlives it.
+using ChainOf = std::function<std::unique_ptr<stages::Chain>(const cmodel::Config&)>;
 /// Tries the suggestion for the step with the largest share that has one.
-std::optional<TriedSuggestion> try_suggestion(const scene::Scene& scene, const cmodel::Config& config,
+std::optional<TriedSuggestion> try_suggestion(const ChainOf& chain_of, const cmodel::Config& config,
                                               const Attribution& attribution, int threads);
 
 /// The answer first, then the table. `bits`: amounts are in LSB of this width.

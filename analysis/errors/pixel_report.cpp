@@ -45,7 +45,7 @@ using Quantities = std::vector<Quantity>;
 
 /// A splat's share in a sheet, on either side.
 struct Splat {
-  std::uint32_t index;  ///< in Chain::list()
+  std::uint32_t index;  ///< in the chain
   Quantities quantities;
 };
 /// A sheet, on either side. With every sample composited, a sample.
@@ -56,12 +56,15 @@ struct Sheet {
   bool real = false, device = false;  ///< whether the side composites it
 };
 
+/// What the fourth sum is: Gaussians have no optical depth.
+const char* fourth_of(const stages::Chain& chain) { return chain.gaussians() == nullptr ? "tau" : "alpha"; }
+
 /// Pairs what both sides have.
 class Pairs {
  public:
   Pairs(const PixelReport& report, const stages::Chain& chain)
-      : report_(report), config_(chain.config()), description_(chain.scene().description) {
-    if (config_.index() == cmodel::IndexKind::Rlut && !chain.steps().shaped()) distance_bits_ = config_.rlut_guard_bits;
+      : report_(report), config_(chain.config()), description_(chain.scene().description), fourth_(fourth_of(chain)) {
+    if (config_.index() == cmodel::IndexKind::Rlut && !chain.shaped()) distance_bits_ = config_.rlut_guard_bits;
     for (const std::size_t side : {0, 1}) take(side);
   }
 
@@ -112,7 +115,7 @@ class Pairs {
               .device = sides[1] != nullptr};
     const int sf = config_.sheet_frac_bits, tf = config_.composite_frac_bits;
     for (const std::size_t c : {0, 1, 2, 3})
-      out.quantities.push_back(quantity(std::string("sum ") + (c == 3 ? "tau" : kChannels[c]), sf, sides,
+      out.quantities.push_back(quantity(std::string("sum ") + (c == 3 ? fourth_ : kChannels[c]), sf, sides,
                                         [c](const SheetTrace& s) { return s.sums[c]; }));
     if (!xray() && description_.slab_opacity == scene::SlabOpacity::Exponential)
       out.quantities.push_back(
@@ -156,7 +159,7 @@ class Pairs {
     add("q", distance_bits_, placed, [](const SplatTrace& s) { return s.entries; });
     add("weight", config_.radial_frac_bits, placed, [](const SplatTrace& s) { return Value(s.weight); });
     for (const std::size_t c : {0, 1, 2, 3}) {
-      const std::string name = c == 3 ? "tau" : kChannels[c];
+      const std::string name = c == 3 ? fourth_ : kChannels[c];
       add("share " + name, config_.colour_frac_bits, shares,
           [c](const stages::ShareTrace& s) { return Value(s.share[c]); });
       add("product " + name, config_.sheet_frac_bits, shares,
@@ -168,8 +171,9 @@ class Pairs {
   const PixelReport& report_;
   const cmodel::Config& config_;
   const scene::SceneDescription& description_;
+  const char* fourth_;
   std::optional<int> distance_bits_;  ///< fraction bits of q, which is a word only if it comes from the RLUT
-  std::map<std::uint32_t, std::array<const SplatTrace*, 2>> splats_;  ///< by index in Chain::list()
+  std::map<std::uint32_t, std::array<const SplatTrace*, 2>> splats_;  ///< by number in the chain
   std::map<Key, Sides> sheets_;
 };
 
@@ -195,9 +199,22 @@ void add_formats(Json& json, const Quantities& quantities) {
     if (one.frac_bits) json[one.name] = *one.frac_bits;
 }
 
-glm::ivec3 voxel_of(const stages::Chain& chain, std::uint32_t splat) {
-  return stages::voxel_of(*chain.scene().volume, chain.list().splats[splat]);
+/// "voxel", or "gaussian": which one in its file.
+struct Origin {
+  const char* kind;
+  std::vector<std::int64_t> numbers;
+};
+Origin origin_of(const stages::Chain& chain, std::uint32_t splat) {
+  if (chain.gaussians() != nullptr) return {"gaussian", {chain.gaussians()->gaussians()[splat].number}};
+  const glm::ivec3 voxel = stages::voxel_of(*chain.scene().volume, chain.list().splats[splat]);
+  return {"voxel", {voxel.x, voxel.y, voxel.z}};
 }
+
+/// What the text calls a sheet: its number, or a Gaussian's in the file.
+std::int64_t label_of(const Sheet& sheet, const stages::Chain& chain) {
+  return chain.gaussians() == nullptr ? sheet.number : origin_of(chain, sheet.splats.front().index).numbers.front();
+}
+const char* kind_of(const stages::Chain& chain) { return chain.gaussians() == nullptr ? "sheet" : "Gaussian"; }
 
 const Quantity& named(const Quantities& all, const std::string& name) {
   return *std::ranges::find(all, name, &Quantity::name);
@@ -273,11 +290,11 @@ std::size_t worst_of(const std::vector<double>& errors) {
 
 /// The splats of a sheet, the brightest `most` first.
 std::string splats_of(const Sheet& sheet, const stages::Chain& chain, std::size_t channel, std::size_t most) {
-  std::string text = fmt::format("\nsheet {}{}\n", sheet.number,
+  std::string text = fmt::format("\n{} {}{}\n", kind_of(chain), label_of(sheet, chain),
                                  sheet.real && sheet.device ? ""
                                  : sheet.real               ? ", which only the real side composites"
                                                             : ", which only the device composites");
-  const std::string product = std::string("product ") + (channel == 3 ? "tau" : kChannels[channel]);
+  const std::string product = std::string("product ") + (channel == 3 ? fourth_of(chain) : kChannels[channel]);
   std::vector<const Splat*> splats;
   for (const Splat& splat : sheet.splats) splats.push_back(&splat);
   std::ranges::stable_sort(splats, std::greater{}, [&](const Splat* splat) {
@@ -286,11 +303,11 @@ std::string splats_of(const Sheet& sheet, const stages::Chain& chain, std::size_
   });
   if (!splats.empty()) text += names_of(of_channel(splats.front()->quantities, channel));
   for (std::size_t i = 0; i < std::min(most, splats.size()); ++i) {
-    const glm::ivec3 voxel = voxel_of(chain, splats[i]->index);
-    text += three_lines(fmt::format("{},{},{}", voxel.x, voxel.y, voxel.z), of_channel(splats[i]->quantities, channel));
+    text += three_lines(fmt::format("{}", fmt::join(origin_of(chain, splats[i]->index).numbers, ",")),
+                        of_channel(splats[i]->quantities, channel));
   }
   if (splats.size() > most)
-    text += fmt::format("  fainter ones: {} (--sheet {} shows them)\n", splats.size() - most, sheet.number);
+    text += fmt::format("  fainter ones: {} (--sheet {} shows them)\n", splats.size() - most, label_of(sheet, chain));
   const Quantities sums = of_channel(sheet.quantities, channel);
   return text + names_of(sums) + three_lines("together", sums);
 }
@@ -323,8 +340,11 @@ std::string to_text(const PixelReport& report, const stages::Chain& chain, const
   const std::vector<Sheet> sheets = pairs.sheets();
   const std::size_t c = report.channel;
   std::string text =
-      fmt::format("pixel {},{}: {} splats, {} sheets{}\n\n", report.x, report.y, report.device.splats.size(),
-                  report.device.sheets.size(), report.device.terminated ? ", then terminated" : "");
+      fmt::format("pixel {},{}: {}{}\n\n", report.x, report.y,
+                  chain.gaussians() != nullptr
+                      ? fmt::format("{} Gaussians", report.device.sheets.size())
+                      : fmt::format("{} splats, {} sheets", report.device.splats.size(), report.device.sheets.size()),
+                  report.device.terminated ? ", then terminated" : "");
   text += fmt::format("{:<8} {:>11} {:>11} {:>11} {:>13}\n", "channel", "real", "device", "word", "error, " + lsb);
   for (const Quantity& one : pairs.out())
     text += fmt::format("{:<8} {:>11} {:>11} {:>11} {:>+13.4f}\n", one.name, cell(one.real), cell(one.device),
@@ -339,15 +359,19 @@ std::string to_text(const PixelReport& report, const stages::Chain& chain, const
     text += fmt::format(" {} {:+.4f}{}", part->set.name, part->error[c] * unit, part == parts.back() ? "\n" : ",");
   if (sheets.empty()) return text;
 
-  text += fmt::format("\n{:>8} {:>7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>13}\n", "sheet", "splats", "opacity",
+  text += fmt::format("\n{:>8} {:>7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>13}\n", kind_of(chain), "splats", "opacity",
                       "device's", fmt::format("{} so far", kChannels[c]), "device's",
                       c == 3 && named_t(sheets.front()) ? "word of T" : "word", "error, " + lsb);
-  if (details.sheet && std::ranges::find(sheets, *details.sheet, &Sheet::number) == sheets.end()) {
+  const auto asked_for = [&](const Sheet& sheet) { return details.sheet == label_of(sheet, chain); };
+  if (details.sheet && !std::ranges::any_of(sheets, asked_for)) {
     throw_usage({.where = "--sheet",
-                 .what = "no splat of the pixel is in this sheet",
-                 .expected = fmt::format("{} to {}", sheets.front().number, sheets.back().number),
+                 .what = chain.gaussians() != nullptr ? "this Gaussian has no sample at the pixel"
+                                                      : "no splat of the pixel is in this sheet",
+                 .expected = chain.gaussians() != nullptr
+                                 ? "a Gaussian that the text lists"
+                                 : fmt::format("{} to {}", sheets.front().number, sheets.back().number),
                  .got = std::to_string(*details.sheet),
-                 .fix = "leave it out to see all sheets"});
+                 .fix = "leave it out to see all of them"});
   }
   const std::vector<double> errors = errors_behind(sheets, c);
   const std::size_t worst = worst_of(errors);
@@ -357,10 +381,10 @@ std::string to_text(const PixelReport& report, const stages::Chain& chain, const
     const auto slab = std::ranges::find(sheet.quantities, "slab A", &Quantity::name);
     const bool xray = slab == sheet.quantities.end();
     const Light light = light_of(sheet, c);
-    text += fmt::format("{:>8} {:>7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>+13.4f}\n", sheet.number,
+    text += fmt::format("{:>8} {:>7} {:>11} {:>11} {:>11} {:>11} {:>11} {:>+13.4f}\n", label_of(sheet, chain),
                         sheet.splats.size(), xray ? "-" : cell(slab->real), xray ? "-" : cell(slab->device),
                         cell(light.real), cell(light.device), cell(light.word), errors[i] * unit);
-    const bool asked = details.all || sheet.number == details.sheet;
+    const bool asked = details.all || asked_for(sheet);
     if (asked || (!details.sheet && i == worst))
       story += splats_of(sheet, chain, c, asked ? sheet.splats.size() : kSplats);
   }
@@ -396,9 +420,11 @@ Json to_json(const PixelReport& report, const stages::Chain& chain) {
       add_formats(formats, splat.quantities);
       const auto [found, fresh] = numbers.emplace(splat.index, splats.size());
       if (fresh) {
-        const glm::ivec3 voxel = voxel_of(chain, splat.index);
-        splats.push_back(
-            {{"voxel", {voxel.x, voxel.y, voxel.z}}, {"values", json_of(part_of(splat.quantities, false))}});
+        const Origin origin = origin_of(chain, splat.index);
+        Json one;
+        one[origin.kind] = origin.numbers.size() == 1 ? Json(origin.numbers.front()) : Json(origin.numbers);
+        one["values"] = json_of(part_of(splat.quantities, false));
+        splats.push_back(one);
       }
       shares.push_back({{"splat", found->second}, {"values", json_of(part_of(splat.quantities, true))}});
     }

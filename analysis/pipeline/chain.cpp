@@ -2,6 +2,7 @@
 #include "analysis/pipeline/chain.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "analysis/pipeline/add_products.hpp"
@@ -54,11 +55,11 @@ class Chain::Band {
         pixels_(chain.scene_, chain.config_, mixture, golden_units),
         product_(product_rule(chain.config_, mixture)),
         settled_(rows, width),
-        ring_(static_cast<std::size_t>(chain.steps_.reach()), golden::Sheet(rows, width)),
+        ring_(chain.steps_ ? static_cast<std::size_t>(chain.steps_->reach()) : 1, golden::Sheet(rows, width)),
         picture_(static_cast<std::size_t>(rows.end - rows.first) * width, pixels_.initial()) {}
 
   void run(const BandBins& bins, int band) {
-    for (int sheet = 0; sheet < chain_.steps_.sheets(); ++sheet) {
+    for (int sheet = 0; sheet < chain_.sheets(); ++sheet) {
       for (const std::uint32_t i : bins.bin(band, sheet)) add(splats_.splats[i], splats_.shape(i));
       drain(at(sheet));
     }
@@ -80,7 +81,7 @@ class Chain::Band {
     const golden::Rows open = settled_.open_rows(reach, rows_);
     if (open.first >= open.end) return;
     weights_.rasterise(splat, shape, mixture_, golden_units_, open, width_);
-    chain_.steps_.shares(splat, mixture_, shares_, shape != nullptr ? shape->growth : Growth{});
+    chain_.shares(splat, shape, mixture_, shares_);
     if (samples_) return composite();
     add_to_sheets(splat, weights_, shares_, product_, [this](int sheet) -> golden::Sheet& { return at(sheet); });
   }
@@ -125,22 +126,54 @@ class Chain::Band {
 };
 
 Chain::Chain(const scene::Scene& scene, const cmodel::Config& config)
-    : scene_(drawable(scene, config)), config_(config), steps_(scene, config), list_(scene) {
+    : scene_(drawable(scene, config)), config_(config), steps_(std::in_place, scene, config), list_(scene) {
   if (driver::holds_densities(scene.description))
     densities_.emplace(scene, config, driver::plan_for_device(scene).slabs);
 }
 
+Chain::Chain(const scene::GaussianScene& scene, const cmodel::Config& config, int threads)
+    : own_(samples_scene(scene)), scene_(*own_), config_(config), gaussians_(std::in_place, scene, config, threads) {}
+
+Staged Chain::staged(const Mixture& mixture, bool golden_units, int threads, Staged memory) const {
+  if (!gaussians_) return steps_->staged(list_, mixture, golden_units, threads, std::move(memory));
+  std::vector<std::uint32_t> all(splats());
+  std::iota(all.begin(), all.end(), 0U);
+  return gaussians_->staged(all, mixture, threads, std::move(memory));
+}
+
+Staged Chain::staged(std::span<const std::uint32_t> which, const Mixture& mixture, int threads) const {
+  if (gaussians_) return gaussians_->staged(which, mixture, threads, {});
+  if (!carries() || !mixture.device(Step::Emission)) return steps_->staged(list_.part(which), mixture, false, threads);
+  // Rounding errors come from all splats before.
+  const Staged whole = staged(mixture, false, threads);
+  Staged out;
+  for (const std::uint32_t i : which) {
+    out.splats.push_back(whole.splats[i]);
+    if (!whole.shapes.empty()) out.shapes.push_back(whole.shapes[i]);
+  }
+  return out;
+}
+
+void Chain::shares(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture,
+                   std::vector<golden::Sums>& out) const {
+  if (gaussians_) {
+    out.assign(1, splat.value);
+  } else {
+    steps_->shares(splat, mixture, out, shape != nullptr ? shape->growth : Growth{});
+  }
+}
+
 Picture Chain::operator()(const Mixture& mixture, int threads) const {
   // If nothing is rounded up to step sheet, the order of the factors is free, and golden's is used.
-  const bool golden_units = mixture.real(Step::Position, Step::Sheet);
+  const bool golden_units = !gaussians_ && mixture.real(Step::Position, Step::Sheet);
   const int width = scene_.description.width, height = scene_.description.height;
-  Staged splats = steps_.staged(list_, mixture, golden_units, threads, [this] {
+  Staged splats = staged(mixture, golden_units, threads, [this] {
     const std::scoped_lock lock(guard_);
     return std::exchange(memory_, {});
   }());
   const driver::TileGrid bands = band_grid(config_, width, height, kRows);
   const BandBins bins(
-      bands, steps_.sheets(), splats.splats.size(), threads,
+      bands, sheets(), splats.splats.size(), threads,
       [&](std::size_t i) {
         return driver::widened(extent_of(splats.splats[i], splats.shape(i), more_reach(config_)),
                                densities_ ? DensityBand::kHalo : 0);
@@ -157,7 +190,7 @@ Picture Chain::operator()(const Mixture& mixture, int threads) const {
       sweep.store(out);
     };
     if (densities_) {
-      draw(DensityBand({scene_, config_, steps_, *densities_, mixture, splats, golden_units}, rows));
+      draw(DensityBand({scene_, config_, *steps_, *densities_, mixture, splats, golden_units}, rows));
     } else {
       draw(Band(*this, mixture, splats, golden_units, rows, width));
     }

@@ -5,9 +5,11 @@
 
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/pipeline/density_steps.hpp"
+#include "analysis/pipeline/gaussian_steps.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
@@ -28,25 +30,45 @@ class Chain {
  public:
   /// Throws UserError (Usage) if the device cannot draw the scene. Keeps references to both.
   Chain(const scene::Scene& scene, const cmodel::Config& config);
+  /// Of 3-D Gaussians; throws as GaussianSteps does. All real is golden's picture but for the rounding of doubles.
+  Chain(const scene::GaussianScene& scene, const cmodel::Config& config, int threads = 0);
 
   /// `threads` (0: all cores) never change the result.
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
   /// The frame's steps, grouped as they are reported.
-  std::vector<StepSet> sets() const { return step_sets(config_, steps_.carries(), holds_densities()); }
+  std::vector<StepSet> sets() const {
+    return gaussians_ ? gaussian_sets(config_) : step_sets(config_, carries(), holds_densities());
+  }
   bool holds_densities() const { return densities_.has_value(); }
-  const SplatSteps& steps() const { return steps_; }
-  const SplatList& list() const { return list_; }
-  const scene::Scene& scene() const { return scene_; }
+  const SplatSteps& steps() const { return *steps_; }  ///< of a volume
+  const SplatList& list() const { return list_; }      ///< of a volume
+  /// Null for a volume.
+  const GaussianSteps* gaussians() const { return gaussians_ ? &*gaussians_ : nullptr; }
+  const scene::Scene& scene() const { return scene_; }  ///< of Gaussians: samples_scene()
   const cmodel::Config& config() const { return config_; }
-  std::size_t splats() const { return list_.splats.size(); }
+  std::size_t splats() const { return gaussians_ ? gaussians_->gaussians().size() : list_.splats.size(); }
+  bool carries() const { return steps_ && steps_->carries(); }
+  bool shaped() const { return gaussians_ || steps_->shaped(); }  ///< a frame with ellipses
+
+  /// As SplatSteps::staged(), of all splats.
+  Staged staged(const Mixture& mixture, bool golden_units, int threads, Staged memory = {}) const;
+  /// Of the splats with the numbers `which`, in the device's units.
+  Staged staged(std::span<const std::uint32_t> which, const Mixture& mixture, int threads) const;
+  /// As SplatSteps::shares().
+  void shares(const StagedSplat& splat, const StagedShape* shape, const Mixture& mixture,
+              std::vector<golden::Sums>& out) const;
 
  private:
   class Band;
 
+  int sheets() const { return steps_ ? steps_->sheets() : 1; }
+
+  std::optional<scene::Scene> own_;  ///< of Gaussians
   const scene::Scene& scene_;
   const cmodel::Config& config_;
-  SplatSteps steps_;
+  std::optional<SplatSteps> steps_;
+  std::optional<GaussianSteps> gaussians_;
   SplatList list_;
   std::optional<DensitySteps> densities_;  ///< only if the sheets hold densities
   mutable std::mutex guard_;

@@ -10,6 +10,7 @@
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
 #include "driver/splats/ellipse_shape.hpp"
+#include "driver/tiles/gaussian_windows.hpp"
 #include "golden/splat/footprint.hpp"
 
 namespace fastsplat::stages {
@@ -46,20 +47,43 @@ class EllipseDistance {
       }
       return;
     }
-    for (const driver::EllipseSpan& span : driver::EllipseSpans(config_, shape.words, shape.word_x, shape.word_y)) {
-      begin(splat, shape, mixture, span.windows);
-      const int lanes = config_.lanes, columns = static_cast<int>(span.windows.columns) * lanes,
-                height = static_cast<int>(span.windows.rows) * lanes;
-      const int left = std::max(left_, 0), right = std::min(left_ + columns, width);
-      for (int y = std::max(top_, rows.first); y < std::min(top_ + height, rows.end) && left < right; ++y) {
+    const auto record = [&](const cmodel::EllipseWindows& windows, golden::Run inside, golden::Rows open) {
+      begin(splat, shape, mixture, windows);
+      const int columns = static_cast<int>(windows.columns) * config_.lanes,
+                height = static_cast<int>(windows.rows) * config_.lanes;
+      const int left = std::max(left_, inside.begin), right = std::min(left_ + columns, inside.end);
+      for (int y = std::max(top_, open.first); y < std::min(top_ + height, open.end) && left < right; ++y) {
         entries_.clear();
         for (int x = left; x < right; ++x) entries_.push_back(at(x - left_, y - top_));
         visit(y, left, std::span<const double>(entries_));
       }
-    }
+    };
+    if (shape.tiles != nullptr) return of_tiles(splat, shape, rows, record);
+    for (const driver::EllipseSpan& span : driver::EllipseSpans(config_, shape.words, shape.word_x, shape.word_y))
+      record(span.windows, {0, width}, rows);
   }
 
  private:
+  /// Calls record(windows, columns, rows) for the records of a Gaussian in each tile.
+  template <class Record>
+  void of_tiles(const StagedSplat& splat, const StagedShape& shape, golden::Rows rows, const Record& record) {
+    const driver::TileGrid& grid = *shape.tiles;
+    const auto tile_of = [&](double x) {
+      return static_cast<int>(std::clamp(std::floor(x / grid.tile_width), 0.0, grid.columns() - 1.0));
+    };
+    const int first = tile_of(splat.x - shape.reach_x - 1.0), last = tile_of(splat.x + shape.reach_x + 1.0);
+    for (int down = rows.first / grid.tile_height; down * grid.tile_height < rows.end; ++down) {
+      for (int across = first; across <= last; ++across) {
+        const int tile = down * grid.columns() + across, x = grid.x(tile), y = grid.y(tile);
+        const golden::Rows open{std::max(rows.first, y), std::min(rows.end, y + grid.height(tile))};
+        const std::int32_t pixel = 1 << config_.position_frac_bits;
+        for (const cmodel::EllipseWindows& windows :
+             driver::gaussian_windows(config_, shape.words, shape.word_x - x * pixel, shape.word_y - y * pixel,
+                                      grid.width(tile), grid.height(tile)))
+          record(windows, {x, x + grid.width(tile)}, open);
+      }
+    }
+  }
   /// Coefficients of a record at its first pixel, (left_, top_).
   void begin(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture,
              const cmodel::EllipseWindows& windows);

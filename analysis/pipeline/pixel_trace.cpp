@@ -21,7 +21,7 @@ constexpr int kMargin = 2;
 std::vector<std::uint32_t> near_splats(const Chain& chain, int x, int y, int threads) {
   std::vector<std::uint8_t> near(chain.splats());
   for (const Mixture& mixture : {Mixture{}, Mixture::all_device()}) {
-    const Staged staged = chain.steps().staged(chain.list(), mixture, false, threads);
+    const Staged staged = chain.staged(mixture, false, threads);
     for (std::size_t i = 0; i < near.size(); ++i) {
       const driver::Extent box =
           driver::widened(extent_of(staged.splats[i], staged.shape(i), more_reach(chain.config())), kMargin);
@@ -64,26 +64,12 @@ PixelChain::PixelChain(const Chain& chain, int x, int y, int threads) : chain_(c
                  .fix = "use --classify pre; `fastsplat errors` attributes densities' errors"});
   }
   near_ = near_splats(chain, x, y, threads);
-  list_ = chain.list().part(near_);
-}
-
-Staged PixelChain::staged(const Mixture& mixture) const {
-  if (!chain_.steps().carries() || !mixture.device(Step::Emission))
-    return chain_.steps().staged(list_, mixture, false, threads_);
-  // Rounding errors come from all splats before.
-  const Staged whole = chain_.steps().staged(chain_.list(), mixture, false, threads_);
-  Staged out;
-  for (const std::uint32_t i : near_) {
-    out.splats.push_back(whole.splats[i]);
-    if (!whole.shapes.empty()) out.shapes.push_back(whole.shapes[i]);
-  }
-  return out;
 }
 
 PixelTrace PixelChain::operator()(const Mixture& mixture) const {
   const scene::Scene& scene = chain_.scene();
   const cmodel::Config& config = chain_.config();
-  const Staged staged = this->staged(mixture);
+  const Staged staged = chain_.staged(near_, mixture, threads_);
   std::vector<std::size_t> order(staged.splats.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return staged.splats[i].first; });
@@ -104,7 +90,7 @@ PixelTrace PixelChain::operator()(const Mixture& mixture) const {
     if (!here || here->weight == 0.0) continue;
     const auto number = static_cast<std::uint32_t>(out.splats.size());
     out.splats.push_back({near_[i], splat, here->entries, here->weight});
-    chain_.steps().shares(splat, mixture, shares, shape != nullptr ? shape->growth : Growth{});
+    chain_.shares(splat, shape, mixture, shares);
     for (std::size_t s = 0; s < shares.size(); ++s) {
       if (shares[s] == golden::Sums{}) continue;
       SheetTrace& sheet = sheets[samples ? static_cast<int>(number) : splat.first + static_cast<int>(s)];

@@ -13,7 +13,7 @@ namespace fastsplat::stages {
 
 /// A splat with a weight at the pixel.
 struct SplatTrace {
-  std::uint32_t splat = 0;        ///< index in Chain::list()
+  std::uint32_t splat = 0;        ///< its number in the chain
   StagedSplat placed;             ///< as the driver places it
   std::optional<double> entries;  ///< q: squared distance in radial table entries; without one in some index kinds
   double weight = 0.0;            ///< at the pixel
@@ -54,12 +54,9 @@ class PixelChain {
   PixelTrace operator()(const Mixture& mixture) const;
 
  private:
-  Staged staged(const Mixture& mixture) const;
-
   const Chain& chain_;
   int x_, y_, threads_;
-  std::vector<std::uint32_t> near_;  ///< splats that can touch the pixel in some mixture, indices in Chain::list()
-  SplatList list_;                   ///< these
+  std::vector<std::uint32_t> near_;  ///< splats that can touch the pixel in some mixture
 };
 
 }  // namespace fastsplat::stages

@@ -26,6 +26,27 @@ cmodel::Config without_end(cmodel::Config config) {
 
 }  // namespace
 
+void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footprint, const cmodel::EllipseShape& words,
+                 bool device, StagedShape& shape) {
+  shape.words = words;
+  if (!device) {
+    const double entries = config.radial_entries, determinant = footprint.determinant();
+    shape.a = entries * footprint.yy / determinant;
+    shape.b = -2.0 * entries * footprint.xy / determinant;
+    shape.c = entries * footprint.xx / determinant;
+    shape.reach_x = std::sqrt(footprint.xx);
+    shape.reach_y = std::sqrt(footprint.yy);
+    return;
+  }
+  const int steps = 2 * config.position_frac_bits - config.rlut_guard_bits - static_cast<int>(words.shift);
+  shape.a = std::ldexp(words.a, steps);
+  shape.b = std::ldexp(words.b, steps);
+  shape.c = std::ldexp(words.c, steps);
+  const driver::EllipseReach reach = driver::reach(config, words);
+  shape.reach_x = reach.x;
+  shape.reach_y = reach.y;
+}
+
 glm::ivec3 voxel_of(const volume::Volume& volume, const scene::Splat& splat) {
   // Positions are floats, far nearer to their voxel than to any other.
   return {glm::round(volume.to_grid(glm::dvec3(splat.position)) / volume.spacing + 0.5 * glm::dvec3(volume.dims - 1))};
@@ -144,7 +165,7 @@ void SplatSteps::circle(const scene::RealSplat& real, const Mixture& mixture, do
 
 StagedShape SplatSteps::shape(const scene::Splat& voxel, const scene::RealSplat& real, const Mixture& mixture,
                               double unit_value, StagedSplat& splat) const {
-  const double kernel_radius = scene_.kernel.radius(), entries = config_.radial_entries;
+  const double kernel_radius = scene_.kernel.radius();
   const scene::ShapedSplat shaped = (*shaper_)(voxel, real, golden::scaled(real.material, unit_value));
   const scene::ScreenShape& s = shaped.shape;
   StagedShape out;
@@ -168,25 +189,9 @@ StagedShape SplatSteps::shape(const scene::Splat& voxel, const scene::RealSplat&
   const double square = kernel_radius * kernel_radius;
   const scene::ScreenShape footprint{square * s.xx, square * s.xy, square * s.yy},
       drawn = driver::drawn_footprint(s, kernel_radius);
-  out.words = driver::ellipse_words(config_, drawn);
-  if (!device) {
-    const double determinant = footprint.determinant();
-    out.a = entries * footprint.yy / determinant;
-    out.b = -2.0 * entries * footprint.xy / determinant;
-    out.c = entries * footprint.xx / determinant;
-    out.reach_x = std::sqrt(footprint.xx);
-    out.reach_y = std::sqrt(footprint.yy);
-    return out;
-  }
-  if (drawn.xx != footprint.xx)  // too thin: fainter by the same factor
+  set_ellipse(config_, footprint, driver::ellipse_words(config_, drawn), device, out);
+  if (device && drawn.xx != footprint.xx)  // too thin: fainter by the same factor
     splat.value = golden::scaled(splat.value, std::sqrt(square * square * s.determinant() / drawn.determinant()));
-  const int steps = 2 * config_.position_frac_bits - config_.rlut_guard_bits - static_cast<int>(out.words.shift);
-  out.a = std::ldexp(out.words.a, steps);
-  out.b = std::ldexp(out.words.b, steps);
-  out.c = std::ldexp(out.words.c, steps);
-  const driver::EllipseReach reach = driver::reach(config_, out.words);
-  out.reach_x = reach.x;
-  out.reach_y = reach.y;
   return out;
 }
 

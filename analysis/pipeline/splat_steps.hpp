@@ -12,6 +12,7 @@
 #include "driver/splats/slices.hpp"
 #include "driver/splats/splat_quantiser.hpp"
 #include "driver/tables/radius_sets.hpp"
+#include "driver/tiles/tile_bins.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "scene/sheet_plan.hpp"
@@ -43,8 +44,14 @@ struct StagedShape {
   double reach_x = 0.0, reach_y = 0.0;  ///< half sides of the box where q < N, pixels
   cmodel::EllipseShape words;           ///< the device's words, on either side of step radius
   std::int32_t word_x = 0, word_y = 0;  ///< likewise the centre, pf fraction bits
+  /// Of a 3-D Gaussian: its windows are those of each tile. Else null.
+  const driver::TileGrid* tiles = nullptr;
   Growth growth;
 };
+
+/// The coefficients and the box of a footprint's ellipse: of its words where `device`.
+void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footprint, const cmodel::EllipseShape& words,
+                 bool device, StagedShape& shape);
 
 struct Staged {
   Uninitialised<StagedSplat> splats;

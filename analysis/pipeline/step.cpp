@@ -75,6 +75,16 @@ std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool 
   return sets;
 }
 
+std::vector<StepSet> gaussian_sets(const cmodel::Config& config) {
+  std::vector<StepSet> sets = step_sets(config, false, false);
+  std::erase_if(sets, [](const StepSet& set) {
+    const Step step = set.steps.front();
+    return step == Step::Depth || step == Step::Phi || step == Step::Share || step == Step::Sheet ||
+           step == Step::Factor;
+  });
+  return sets;
+}
+
 std::vector<StepSet> group_sets(bool densities) {
   std::vector<StepSet> sets;
   for (std::size_t group = 0; group < kGroupCount; ++group) {

@@ -112,6 +112,8 @@ struct StepSet {
 /// splat. With error diffusion (`carried`), the words of splats compensate what products lose: emission and product are
 /// one step, in the product's place. Steps of densities are included with `densities`.
 std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool densities);
+/// Those of 3-D Gaussians, which have neither sheets nor slabs of depth.
+std::vector<StepSet> gaussian_sets(const cmodel::Config& config);
 std::vector<StepSet> group_sets(bool densities);
 
 }  // namespace fastsplat::stages

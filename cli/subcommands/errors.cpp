@@ -4,24 +4,19 @@
 
 #include "analysis/compare.hpp"
 #include "analysis/errors/attribution_report.hpp"
-#include "cli/config_flags.hpp"
 #include "cli/errors_output.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
-#include "cli/scene_flags.hpp"
+#include "cli/staged_scene.hpp"
 #include "cli/subcommands/subcommands.hpp"
-#include "cli/volume_json.hpp"
-#include "driver/splats/splat_quantiser.hpp"
-#include "driver/tables/density_tables.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 struct ErrorsArguments {
   Common common;
-  SceneFlags scene;
-  ConfigFlags config;
+  StagedFlags of;
   int lsb_bits = 8;
   bool quick = false, shapley = false;
   std::string blame, maps;  ///< a file, and a prefix; empty for none
@@ -51,17 +46,18 @@ std::vector<std::string> map_names(const std::string& prefix, const std::vector<
   return names;
 }
 
-void write_maps(const ErrorsArguments& arguments, const scene::Scene& scene, const ErrorsResult& result,
-                const std::vector<stages::StepSet>& sets) {
+void write_maps(const ErrorsArguments& arguments, const StagedScene& scene, const ErrorsResult& result) {
   const analysis::Attribution& a = result.attribution;
+  const auto sets = scene.sets();
   const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
   const Image real = analysis::to_image(a.real);
+  const images::Metadata metadata = scene.metadata("errors");
   const auto write = [&](std::size_t at, const stages::Picture& error) {
     const Image signed_error = analysis::to_image(error);
     Image test = real;
     for (std::size_t i = 0; i < test.data.size(); ++i) test.data[i] += signed_error.data[i];
     write_map(pngs[at], analysis::lsb_map(real, test, {.lsb_bits = arguments.lsb_bits}));
-    write_values(exrs[at], signed_error, "errors", scene, result.config);
+    images::write_image(exrs[at], signed_error, metadata);
   };
   write(0, analysis::difference(a.device, a.real));
   for (std::size_t k = 0; k < a.increments.size(); ++k) write(k + 1, a.increments[k]);
@@ -69,30 +65,28 @@ void write_maps(const ErrorsArguments& arguments, const scene::Scene& scene, con
 
 ExitCode run(const ErrorsArguments& arguments) {
   const Output output(arguments.common);
-  const cmodel::Config config = load(arguments.config);
-  const scene::SceneDescription described = describe(arguments.scene);
-  const auto sets =
-      stages::step_sets(config, driver::carries(described.method, config), driver::holds_densities(described));
+  StagedScene scene(arguments.of);
+  const cmodel::Config& config = scene.config();
+  const auto sets = scene.sets();
   check_outputs({.images = map_names(arguments.maps, sets, ".exr"),
                  .maps = joined(map_names(arguments.maps, sets, ".png"), {arguments.blame}),
                  .raws = {},
                  .others = {arguments.common.json},
-                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
-  const scene::Scene scene = build(arguments.scene);
-  output.remark(remarks(scene));
+                 .inputs = scene.inputs()});
+  scene.read(output);
   ErrorsResult result{
-      .scene = summary(scene), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
+      .scene = scene.summary(), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
+  const int threads = arguments.common.threads;
   {
-    const stages::Chain chain(scene, config);
     ProgressBar bar("errors", watching(arguments.common));
-    result.attribution = analysis::attribute(chain, {.quick = arguments.quick,
-                                                     .shapley = arguments.shapley,
-                                                     .threads = arguments.common.threads,
-                                                     .progress = bar.callback()});
+    result.attribution = analysis::attribute(
+        *scene.chain(config, threads),
+        {.quick = arguments.quick, .shapley = arguments.shapley, .threads = threads, .progress = bar.callback()});
   }
-  result.tried = analysis::try_suggestion(scene, config, result.attribution, arguments.common.threads);
+  result.tried = analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); },
+                                          config, result.attribution, threads);
   if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
-  if (!arguments.maps.empty()) write_maps(arguments, scene, result, sets);
+  if (!arguments.maps.empty()) write_maps(arguments, scene, result);
   output.line(errors_heading(result.scene, config) +
               analysis::to_text(result.attribution, result.tried, arguments.lsb_bits));
   output.json(to_json(result));
@@ -101,9 +95,7 @@ ExitCode run(const ErrorsArguments& arguments) {
 }
 
 void declare(Options& options, ErrorsArguments& to) {
-  declare(options, to.scene);
-  options.group("Device");
-  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  declare(options, to.of);
   options.group("Analysis");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.flag("--quick", to.quick, "skip the runs with one step alone and with one left out: a third of the frames");
@@ -119,6 +111,7 @@ void declare(Options& options, ErrorsArguments& to) {
                   "each step's share of the error, and where it occurs");
   options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
                   "a third of the time, as JSON");
+  options.example("fastsplat errors --gaussians shells:500 --size 96", "the same of 3-D Gaussians");
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void write_maps(const ErrorsBoundArguments& arguments, const scene::Scene& scene
     Image above = real;
     for (std::size_t v = 0; v < above.data.size(); ++v) above.data[v] += most.data[v];
     write_map(name + ".png", analysis::heat_map(real, above, {.lsb_bits = arguments.lsb_bits}));
-    write_values(name + ".exr", most, "bound", scene, result.config);
+    images::write_image(name + ".exr", most, values_metadata("bound", scene, result.config));
   }
 }
 

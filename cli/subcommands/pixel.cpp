@@ -4,13 +4,11 @@
 
 #include "analysis/errors/pixel_report.hpp"
 #include "base/number_text.hpp"
-#include "cli/config_flags.hpp"
 #include "cli/errors_output.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
-#include "cli/scene_flags.hpp"
+#include "cli/staged_scene.hpp"
 #include "cli/subcommands/subcommands.hpp"
-#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -18,8 +16,7 @@ namespace {
 struct PixelArguments {
   Common common;
   std::string at;  ///< "X,Y"
-  SceneFlags scene;
-  ConfigFlags config;
+  StagedFlags of;
   int lsb_bits = 8;
   bool all = false;
   std::optional<int> sheet;
@@ -43,20 +40,16 @@ glm::ivec2 place_of(const std::string& text) {
 ExitCode run(const PixelArguments& arguments) {
   const Output output(arguments.common);
   const glm::ivec2 at = place_of(arguments.at);
-  const cmodel::Config config = load(arguments.config);
-  describe(arguments.scene);
-  check_outputs({.images = {},
-                 .maps = {},
-                 .raws = {},
-                 .others = {arguments.common.json},
-                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
-  const scene::Scene scene = build(arguments.scene);
-  output.remark(remarks(scene));
-  const stages::Chain chain(scene, config);
+  StagedScene scene(arguments.of);
+  const cmodel::Config& config = scene.config();
+  check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.common.json}, .inputs = scene.inputs()});
+  scene.read(output);
+  const auto made = scene.chain(config, arguments.common.threads);
+  const stages::Chain& chain = *made;
   const analysis::PixelReport report = analysis::explain(chain, at.x, at.y, arguments.common.threads);
-  output.line(errors_heading(summary(scene), config) +
+  output.line(errors_heading(scene.summary(), config) +
               analysis::to_text(report, chain, {.all = arguments.all, .sheet = arguments.sheet}, arguments.lsb_bits));
-  auto json = errors_identity("pixel", summary(scene), config);
+  auto json = errors_identity("pixel", scene.summary(), config);
   json.update(analysis::to_json(report, chain));
   output.json(json);
   return ExitCode::Pass;
@@ -65,18 +58,18 @@ ExitCode run(const PixelArguments& arguments) {
 void declare(Options& options, PixelArguments& to) {
   options.positional("PIXEL", to.at, "X,Y in pixels; 0,0 is the top left");
   options.only_values([] { return std::vector<std::string>{}; });
-  declare(options, to.scene);
-  options.group("Device");
-  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  declare(options, to.of);
   options.group("Output");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
-  options.flag("--all", to.all, "show the splats of every sheet, not only of the one in which the error grows most");
-  options.integer("--sheet", to.sheet, 0, 65535, "N", "show the splats of this sheet");
+  options.flag("--all", to.all,
+               "show the splats of every sheet, or every Gaussian, not only of the one in which the error grows most");
+  options.integer("--sheet", to.sheet, 0, 1L << 30, "N", "show the splats of this sheet, or this Gaussian of the file");
   declare(options, to.common);
   options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config base",
                   "the pixel sheet by sheet, and the splats of its worst sheet");
   options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config tiny --json pixel.json",
                   "every sheet and splat, as JSON");
+  options.example("fastsplat pixel 48,40 --gaussians shells:500 --size 96", "Gaussian by Gaussian");
 }
 
 }  // namespace

@@ -21,18 +21,6 @@
 namespace fastsplat::driver {
 namespace {
 
-/// exp(-q/2), cut at the cutoff.
-scene::Kernel kernel_of(const scene::GaussianScene& scene) { return {0.5, scene.description.cutoff}; }
-
-const cmodel::Config& checked(const cmodel::Config& config) {
-  if (config.has_ellipses() && config.composite_every_sample != 0) return config;
-  throw_usage({.where = "configuration " + config.name,
-               .what = "cannot composite ellipses one by one, as 3-D Gaussians require",
-               .expected = "ellipse.frac_bits above 0 and composite.every_sample = 1",
-               .got = {},
-               .fix = "leave --config out, or use --config ellipse --set composite.every_sample=1"});
-}
-
 /// No variance is below the low-pass, so the words A and C of every shape fit if they fit there.
 void check_low_pass(const scene::GaussianDescription& description, const cmodel::Config& config) {
   const double square = description.cutoff * description.cutoff;
@@ -44,17 +32,6 @@ void check_low_pass(const scene::GaussianDescription& description, const cmodel:
                .expected = fmt::format("above {:.4g}", least),
                .got = fmt::format("{}", description.low_pass),
                .fix = "raise --low-pass or --cutoff, or lower rlut.guard_bits"});
-}
-
-/// Whether some of the Gaussian's pixels in the picture lie beyond the reach of a record.
-bool too_far(const scene::GaussianScene& scene, const scene::ProjectedGaussian& splat, int reach) {
-  const auto far_along = [&](double at, double variance, int size) {
-    const double half = scene.description.cutoff * std::sqrt(variance);
-    const double first = std::max(at - half, 0.0), last = std::min(at + half, size - 1.0);
-    return at - first >= reach || last - at >= reach;
-  };
-  return far_along(splat.x, splat.shape.xx, scene.camera.width()) ||
-         far_along(splat.y, splat.shape.yy, scene.camera.height());
 }
 
 /// Whether a pixel of the picture lies within reach of the centre.
@@ -79,16 +56,39 @@ Extent box_of(const cmodel::Config& config, const QuantisedGaussian& one) {
 
 }  // namespace
 
+scene::Kernel kernel_of(const scene::GaussianDescription& description) { return {0.5, description.cutoff}; }
+
+void check_drawable(const scene::GaussianDescription& description, const cmodel::Config& config) {
+  if (!config.has_ellipses() || config.composite_every_sample == 0) {
+    throw_usage({.where = "configuration " + config.name,
+                 .what = "cannot composite ellipses one by one, as 3-D Gaussians require",
+                 .expected = "ellipse.frac_bits above 0 and composite.every_sample = 1",
+                 .got = {},
+                 .fix = "leave --config out, or use --config ellipse --set composite.every_sample=1"});
+  }
+  check_low_pass(description, config);
+}
+
+bool too_far(const scene::GaussianScene& scene, const scene::ProjectedGaussian& splat, int reach) {
+  const auto far_along = [&](double at, double variance, int size) {
+    const double half = scene.description.cutoff * std::sqrt(variance);
+    const double first = std::max(at - half, 0.0), last = std::min(at + half, size - 1.0);
+    return at - first >= reach || last - at >= reach;
+  };
+  return far_along(splat.x, splat.shape.xx, scene.camera.width()) ||
+         far_along(splat.y, splat.shape.yy, scene.camera.height());
+}
+
 GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
                              const cmodel::Config& config, int threads)
-    : config_(checked(config)), grid_(config, scene.camera.width(), scene.camera.height()) {
+    : config_(config), grid_(config, scene.camera.width(), scene.camera.height()) {
+  check_drawable(scene.description, config_);
   report_.tiles = static_cast<std::uint64_t>(grid_.count());
   cmodel::append(preamble_, cmodel::BeginFrame{cmodel::config_hash(config_), grid_.image_width, grid_.image_height,
                                                static_cast<std::uint32_t>(grid_.count())});
-  cmodel::append(preamble_, radial_table(config_, kernel_of(scene)));
+  cmodel::append(preamble_, radial_table(config_, kernel_of(scene.description)));
   cmodel::append(preamble_, factor_table(config_));
 
-  check_low_pass(scene.description, config_);
   std::vector<GaussianReport> parts(part_count(projected.size()));
   gaussians_.resize(projected.size());
   parallel_parts(projected.size(), threads, [&](std::size_t part, std::size_t first, std::size_t end) {

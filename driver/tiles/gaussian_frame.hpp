@@ -20,6 +20,7 @@
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/tile_bins.hpp"
 #include "scene/gaussians/projected_gaussian.hpp"
+#include "scene/kernel.hpp"
 
 namespace fastsplat::cmodel::fast {
 template <class Word>
@@ -31,6 +32,14 @@ namespace fastsplat::driver {
 /// A configuration and the changes of it that draw Gaussians with golden's early-termination threshold.
 inline constexpr const char* kGaussianConfig = "ellipse";
 inline constexpr std::array kGaussianChanges{"composite.every_sample=1", "composite.freeze_below=7"};
+
+/// exp(-q/2), cut at the cutoff.
+scene::Kernel kernel_of(const scene::GaussianDescription& description);
+/// UserError (Usage) if the configuration has no ellipses, does not composite every sample, or has no words for the
+/// smallest footprints.
+void check_drawable(const scene::GaussianDescription& description, const cmodel::Config& config);
+/// Whether some of the Gaussian's pixels in the picture lie farther from its centre than `reach` (gaussian_reach()).
+bool too_far(const scene::GaussianScene& scene, const scene::ProjectedGaussian& splat, int reach);
 
 /// Report on a compiled view; `cut` and `saturated` are 0 in a healthy one.
 struct GaussianReport {
@@ -56,8 +65,7 @@ struct QuantisedGaussian {
 
 class GaussianFrame {
  public:
-  /// `projected` from project_all(). UserError (Usage) where the configuration has no ellipses or does not composite
-  /// every sample. `threads` (0: all cores) never change it.
+  /// `projected` from project_all(). Throws as check_drawable() does. `threads` (0: all cores) never change it.
   GaussianFrame(const scene::GaussianScene& scene, const std::vector<scene::ProjectedGaussian>& projected,
                 const cmodel::Config& config, int threads = 0);
 

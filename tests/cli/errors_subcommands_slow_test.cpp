@@ -2,6 +2,7 @@
 // fastsplat errors ranges, errors propose and pixel as a user runs them: their output, files and refusals.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -171,6 +172,37 @@ TEST(Pixel, AgreesWithThePicture) {
   EXPECT_GT(json.at("sheets").size(), 3U);
 }
 
+// The same of 3-D Gaussians, and `errors` finds the picture's error.
+TEST(Pixel, OfGaussiansAgreesWithThePicture) {
+  const TempFolder folder;
+  const Words view{"--gaussians", "shells:300", "--size", "48x40", "--quiet"};
+  expect_success(fastsplat(with({"pixel", "22,19", "--json", folder / "p.json"}, view)));
+  const Json json = Json::parse(read_bytes(folder / "p.json"));
+  expect_success(fastsplat(with({"render", "--engine", "cmodel", "-o", folder / "a.exr"}, view)));
+  expect_success(fastsplat(with({"render", "-o", folder / "g.exr"}, view)));
+  const auto device = images::read_image(folder / "a.exr").image, golden = images::read_image(folder / "g.exr").image;
+  int compared = 0;
+  for (const char* channel : {"R", "G", "B", "A"}) {
+    EXPECT_EQ(json.at("pixel").at(channel).at("device").get<float>(), device.pixel(22, 19)[compared]) << channel;
+    EXPECT_NEAR(json.at("pixel").at(channel).at("real").get<double>(), golden.pixel(22, 19)[compared], 1e-7) << channel;
+    ++compared;
+  }
+  EXPECT_GT(json.at("splats").size(), 3U);
+  EXPECT_EQ(json.at("splats").size(), json.at("sheets").size());
+
+  expect_success(fastsplat(with({"errors", "--quick", "--json", folder / "e.json", "--maps", folder / "m"}, view)));
+  const Json errors = Json::parse(read_bytes(folder / "e.json"));
+  double square = 0.0;
+  for (std::size_t i = 0; i < device.data.size(); ++i)
+    square += std::pow(static_cast<double>(device.data[i]) - golden.data[i], 2.0);
+  const double rms = std::sqrt(square / static_cast<double>(device.data.size())) * 255.0;
+  std::printf("[figure] channels %d, Gaussians %zu, RMS of errors %.6f, of the pictures %.6f LSB8\n", compared,
+              json.at("splats").size(), errors.at("total").at("rms_lsb8").get<double>(), rms);
+  EXPECT_NEAR(errors.at("total").at("rms_lsb8").get<double>(), rms, 1e-5);
+  EXPECT_EQ(errors.at("steps").size(), 11U);
+  EXPECT_EQ(images::read_image(folder / "m.index.exr").image.width, 48);
+}
+
 TEST(Pixel, RefusesWhatIsNoPixel) {
   for (const auto& [place, line] : {std::pair{"12", "expected X,Y, two whole numbers, got '12'"},
                                     {"1.5,2", "expected X,Y, two whole numbers, got '1.5,2'"},
@@ -180,6 +212,12 @@ TEST(Pixel, RefusesWhatIsNoPixel) {
   }
   expect_error(fastsplat(with({"pixel", "9,11", "--config", "tiny", "--sheet", "900"}, kSmall)), 2,
                {"--sheet: no splat of the pixel is in this sheet", "got 900"});
+  const Words view{"--gaussians", "shells:300", "--size", "48x40"};
+  expect_error(fastsplat(with({"pixel", "22,19", "--sheet", "900"}, view)), 2,
+               {"--sheet: this Gaussian has no sample at the pixel", "got 900"});
+  expect_error(fastsplat(with({"errors", "--order", "pixels"}, view)), 2, {"--order", "leave it out"});
+  expect_error(fastsplat(with({"errors", "--config", "base"}, view)), 2, {"base", "composite.every_sample"});
+  expect_error(fastsplat(with({"errors", "--up", "z"}, kSmall)), 2, {"--up", "without 3-D Gaussians"});
 }
 
 }  // namespace

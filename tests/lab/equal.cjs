@@ -61,6 +61,7 @@ function gaussian_requests(tables) {
     }
   for (const { name } of tables.configs) out.push({ ask: "frame", gaussians: "shells:100", settings: perspective, config: name });
   for (const ask of ["errors", "pixel", "histogram", "terminated"]) out.push({ ask, gaussians: "shells:100", settings: perspective, config, changes, x: 1, y: 1 });
+  for (const x of [12, 24, 30]) out.push({ ask: "pixel", gaussians: "shells:400", settings: perspective, config, changes, x, y: 20 });
   out.push({ ask: "frame", gaussians: "shells:9000000" }, { ask: "frame", gaussians: "none" }, { ask: "frame", gaussians: "shells:100", settings: { "gaussians.cutoff": "9" } });
   return out;
 }

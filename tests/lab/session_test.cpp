@@ -196,7 +196,7 @@ TEST(LabSession, BadRequestsAreOneLineAndTheSessionGoesOn) {
       {R"({"ask":"frame","gaussians":"nothing.ply"})", "nothing.ply"},
       {R"({"ask":"frame","gaussians":"shells:9","settings":{"gaussians.cutoff":"9"}})", "--cutoff"},
       {R"({"ask":"frame","gaussians":"shells:9","settings":{"gaussians.up":"w"}})", "unknown axis"},
-      {R"({"ask":"errors","gaussians":"shells:9"})", "volumes only"},
+      {R"({"ask":"terminated","gaussians":"shells:9"})", "volumes only"},
       {R"({"ask":"frame","settings":{"camera.azimuth":"east"}})", "expected a finite number, got 'east'"},
       {R"({"ask":"frame","changes":["tile.width=7"]})", "tile.width"},
       {R"({"ask":"frame","toml":"x = 1"})", "configuration:1"},

@@ -111,7 +111,8 @@ export interface Story {
   error_lsb8: number[];
   steps: { name: string; by: string; keys: string; error_lsb8: number[] }[];
   frac_bits: Record<string, number>;
-  splats: { voxel: [number, number, number]; values: Record<string, Value> }[];
+  /** Where each comes from: a voxel of the volume, or a Gaussian of the file. */
+  splats: { voxel?: [number, number, number]; gaussian?: number; values: Record<string, Value> }[];
   sheets: { sheet: number; shares: { splat: number; values: Record<string, Value> }[]; together: Record<string, Value> }[];
 }
 

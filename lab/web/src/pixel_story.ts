@@ -24,7 +24,8 @@ export class PixelStory {
   readonly root: HTMLDetailsElement;
   private readonly body = h("div", {}, h("p", { class: "note" }, "Click a pixel of a picture."));
   private readonly splats = h("div", { class: "sheets" });
-  private sheet: number | null = null;
+  private chosen: Sheet | undefined;
+  private chosen_name: number | undefined;
 
   constructor(opened: () => void) {
     this.root = h("details", { class: "box", id: "pixel", toggle: () => this.root.open && opened() }, h("summary", {}, h("h2", {}, "Pixel story")), this.body);
@@ -48,11 +49,15 @@ export class PixelStory {
     this.root.classList.remove("stale");
     clear(this.body);
     const names = Object.keys(story.pixel);
+    // A Gaussian is a sample of its own, in place of a sheet.
+    const gaussians = story.splats[0]?.gaussian !== undefined;
+    const kind = gaussians ? "Gaussian" : "sheet";
+    const name_of = (row: Sheet | undefined): number | undefined => (gaussians ? story.splats[row?.shares[0]?.splat ?? 0]?.gaussian : row?.sheet);
     this.body.append(
       h(
         "p",
         { id: "pixel-lead", "data-pixel": `${story.x},${story.y}` },
-        `Pixel (${story.x}, ${story.y}): ${story.splats.length} splats in ${story.sheets.length} sheets${story.terminated ? `; it terminates early, in sheet ${story.sheets.at(-1)?.sheet}` : ""}. `,
+        `Pixel (${story.x}, ${story.y}): ${gaussians ? `${story.splats.length} Gaussians` : `${story.splats.length} splats in ${story.sheets.length} sheets`}${story.terminated ? `; it terminates early, in ${kind} ${name_of(story.sheets.at(-1))}` : ""}. `,
         `The error is ${names.map((name, i) => `${name} ${number_text(story.error_lsb8[i], { digits: 3, sign: true })}`).join(", ")} LSB of 8 bits.`,
       ),
       h("h3", {}, "Each step's part of the error"),
@@ -67,39 +72,42 @@ export class PixelStory {
         { name: "Keys", value: (row) => row.keys, cell: (row) => h("code", {}, row.keys) },
       ],
     });
-    this.body.append(h("h3", {}, "Sheet by sheet"), h("p", { class: "note" }, "Each cell: the device's word, its value, and the value in real arithmetic. Choose a sheet to see its splats."));
+    this.body.append(h("h3", {}, gaussians ? "Gaussian by Gaussian" : "Sheet by sheet"), h("p", { class: "note" }, `Each cell: the device's word, its value, and the value in real arithmetic. Choose a ${kind} to see ${gaussians ? "its place and weight" : "its splats"}.`));
     const keys = [...new Set(story.sheets.flatMap((sheet) => Object.keys(sheet.together)))];
-    if (!story.sheets.some((sheet) => sheet.sheet === this.sheet)) this.sheet = story.sheets[0]?.sheet ?? null;
+    this.chosen = story.sheets.find((sheet) => name_of(sheet) === this.chosen_name) ?? story.sheets[0];
+    this.chosen_name = name_of(this.chosen);
     const sheets = h("div", { class: "sheets" });
     this.body.append(sheets);
     const rows = table<Sheet>(sheets, {
-      label: "Sheets of the pixel",
+      label: gaussians ? "Gaussians of the pixel" : "Sheets of the pixel",
       rows: story.sheets,
-      chosen: (row) => row.sheet === this.sheet,
+      chosen: (row) => row === this.chosen,
       choose: (row) => {
-        this.sheet = row.sheet;
+        this.chosen = row;
+        this.chosen_name = name_of(row);
         rows.refresh();
-        this.show_splats(story);
+        this.show_splats(story, `${kind} ${this.chosen_name}`);
       },
-      columns: [{ name: "Sheet", value: (row) => row.sheet }, { name: "Splats", value: (row) => row.shares.length }, ...keys.map((key) => column<Sheet>(key, story.frac_bits, (row) => row.together[key]))],
+      columns: [{ name: gaussians ? "Gaussian" : "Sheet", value: (row) => name_of(row) ?? null }, ...(gaussians ? [] : [{ name: "Splats", value: (row: Sheet) => row.shares.length }]), ...keys.map((key) => column<Sheet>(key, story.frac_bits, (row) => row.together[key]))],
     });
     this.body.append(this.splats);
-    this.show_splats(story);
+    this.show_splats(story, `${kind} ${this.chosen_name}`);
   }
 
-  private show_splats(story: Story): void {
+  private show_splats(story: Story, name: string): void {
     clear(this.splats);
-    const sheet = story.sheets.find((each) => each.sheet === this.sheet);
+    const sheet = this.chosen;
     if (!sheet) return;
-    this.splats.append(h("h3", { id: "sheet-splats" }, `Splats of sheet ${sheet.sheet}`));
+    const heading = name.startsWith("sheet") ? `Splats of ${name}` : name;
+    this.splats.append(h("h3", { id: "sheet-splats" }, heading));
     const splat = (row: Share): Story["splats"][0] => story.splats[row.splat];
     const own = [...new Set(sheet.shares.flatMap((row) => Object.keys(splat(row)?.values ?? {})))];
     const shared = [...new Set(sheet.shares.flatMap((row) => Object.keys(row.values)))];
     table<Share>(this.splats, {
-      label: `Splats of sheet ${sheet.sheet}`,
+      label: heading,
       rows: sheet.shares,
       columns: [
-        { name: "Voxel", value: (row) => splat(row)?.voxel?.join(", ") ?? String(row.splat) },
+        ...(name.startsWith("sheet") ? [{ name: "Voxel", value: (row: Share) => splat(row)?.voxel?.join(", ") ?? String(row.splat) }] : []),
         ...own.map((key) => column<Share>(key, story.frac_bits, (row) => splat(row)?.values[key])),
         ...shared.map((key) => column<Share>(key, story.frac_bits, (row) => row.values[key])),
       ],

@@ -362,6 +362,27 @@ test("long work can be cancelled", async () => {
   await page.finish();
 });
 
+test("a pixel's story and the error by step of 3-D Gaussians", async () => {
+  const page = await open({ hash: small });
+  await page.click("#tab-scene");
+  await rest(page, () => page.selectOption("#volume", "gaussians shells:500"));
+  await page.locator('canvas[data-view="device"]').click({ position: { x: 150, y: 130 } });
+  await page.click("#pixel summary");
+  await page.waitForSelector("#pixel-lead", { timeout: 60_000 });
+  const lead = await page.textContent("#pixel-lead");
+  const rows = page.locator('#pixel [aria-label="Gaussians of the pixel"] tbody tr');
+  assert.match(lead, new RegExp(`: ${await rows.count()} Gaussians`));
+  await rows.nth(1).click();
+  const number = (await rows.nth(1).locator("td,th").first().textContent())?.trim();
+  assert.equal(await page.textContent("#sheet-splats"), `Gaussian ${number}`);
+  await page.click("#ask-errors");
+  await page.waitForSelector("#errors table", { timeout: 120_000 });
+  assert.equal((await page.$$("#errors tbody tr")).length, 11);
+  figure("Gaussians at the pixel", await rows.count(), "> 1");
+  assert.ok((await rows.count()) > 1);
+  await page.finish();
+});
+
 test("the pixel's story, the error by step, and the configurations tried", async () => {
   const page = await open({ hash: "#lab?volume=shells:32&config=base&size=64x64&s.opacity_scale=9" });
   await page.locator('canvas[data-view="device"]').click({ position: { x: 150, y: 130 } });

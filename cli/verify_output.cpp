@@ -86,6 +86,7 @@ Json failure_json(const Failure& failure) {
           {"wave_from", report.wave_from},
           {"wave_to", report.wave_to},
           {"replay", failure.replay},
+          {"follow", failure.follow},
           {"unwritten", failure.unwritten}};
 }
 
@@ -142,6 +143,7 @@ Failure investigate(const Checked& checked, const VerifyArguments& arguments, co
   try {
     driver::write_beats(failure.stream, testbench::write_document(checked.options.config, failure.report.document));
     failure.replay = replay_line(failure.stream, config, failure.report.options, arguments.fault);
+    if (failure.report.pixel) failure.follow = pixel_line(failure.stream, config, *failure.report.pixel);
   } catch (const UserError& error) {
     failure.unwritten.push_back(error.what());
     failure.stream.clear();
@@ -160,6 +162,7 @@ std::string to_text(const Failure& failure) {
          (failure.waveform.empty()
               ? ""
               : fmt::format("waveform: {} (cycles {} to {})\n", failure.waveform, report.wave_from, report.wave_to)) +
+         (failure.follow.empty() ? "" : "model's words: " + failure.follow + "\n") +
          (failure.replay.empty() ? "" : "replay: " + failure.replay + "\n");
 }
 

@@ -15,7 +15,7 @@ namespace fastsplat::cli {
 /// A failure as text, with the files that reproduce it.
 struct Failure {
   testbench::FailureReport report;
-  std::string stream, waveform, replay;  ///< empty if absent
+  std::string stream, waveform, replay, follow;  ///< empty if absent; the last two are commands
   std::vector<std::string> unwritten;    ///< errors of files that could not be written
 };
 

@@ -9,6 +9,8 @@
 #include "cli/output_names.hpp"
 #include "cli/staged_scene.hpp"
 #include "cli/subcommands/subcommands.hpp"
+#include "driver/files/stream_file.hpp"
+#include "testbench/triage/pixel_words.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -20,6 +22,8 @@ struct PixelArguments {
   int lsb_bits = 8;
   bool all = false;
   std::optional<int> sheet;
+  std::optional<std::string> stream;  ///< instead of a scene
+  std::optional<int> tile;
 };
 
 glm::ivec2 place_of(const std::string& text) {
@@ -37,9 +41,49 @@ glm::ivec2 place_of(const std::string& text) {
   return {*x, *y};
 }
 
+/// A stream has the device's words only.
+ExitCode run_stream(const PixelArguments& arguments, const glm::ivec2& at, const Output& output) {
+  const auto alone = [](bool given, const char* flag) {
+    if (!given) return;
+    throw_usage({.where = flag,
+                 .what = "cannot be combined with --stream, which has the device's words only",
+                 .expected = {},
+                 .got = {},
+                 .fix = "leave one of them out"});
+  };
+  alone(arguments.of.scene != SceneFlags{}, "the scene");
+  alone(arguments.of.gaussians.file.has_value(), "--gaussians");
+  alone(arguments.sheet.has_value(), "--sheet");
+  alone(arguments.all, "--all");
+  refuse_without_gaussians(arguments.of.gaussians);
+  const cmodel::Config config = load(arguments.of.config);
+  check_outputs({.images = {},
+                 .maps = {},
+                 .raws = {},
+                 .others = {arguments.common.json},
+                 .inputs = joined(inputs_of_config(arguments.of.config.config.value_or("")), {*arguments.stream})});
+  const testbench::TilePixel asked{static_cast<std::uint32_t>(arguments.tile.value_or(0)), at.x, at.y};
+  const auto words =
+      testbench::words_of_pixel([&](const cmodel::BeatSink& sink) { driver::read_beats(*arguments.stream, sink); },
+                                config, asked, !arguments.tile.has_value());
+  output.line(errors_heading(*arguments.stream, config) + testbench::to_text(words));
+  auto json = errors_identity("pixel", *arguments.stream, config);
+  json.update(testbench::to_json(words));
+  output.json(json);
+  return ExitCode::Pass;
+}
+
 ExitCode run(const PixelArguments& arguments) {
   const Output output(arguments.common);
   const glm::ivec2 at = place_of(arguments.at);
+  if (arguments.stream) return run_stream(arguments, at, output);
+  if (arguments.tile) {
+    throw_usage({.where = "--tile",
+                 .what = "numbers tiles of a stream",
+                 .expected = {},
+                 .got = {},
+                 .fix = "add --stream FILE, or leave it out"});
+  }
   StagedScene scene(arguments.of);
   const cmodel::Config& config = scene.config();
   check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.common.json}, .inputs = scene.inputs()});
@@ -59,6 +103,9 @@ void declare(Options& options, PixelArguments& to) {
   options.positional("PIXEL", to.at, "X,Y in pixels; 0,0 is the top left");
   options.only_values([] { return std::vector<std::string>{}; });
   declare(options, to.of);
+  options.group("Stream");
+  options.word("--stream", to.stream, "FILE", "instead of a scene: the device's words of a recorded stream, .fss");
+  options.integer("--tile", to.tile, 0, 1L << 30, "N", "X,Y lie in this tile, as in reports of `verify`");
   options.group("Output");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.flag("--all", to.all,
@@ -70,6 +117,8 @@ void declare(Options& options, PixelArguments& to) {
   options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config tiny --json pixel.json",
                   "every sheet and splat, as JSON");
   options.example("fastsplat pixel 48,40 --gaussians shells:500 --size 96", "Gaussian by Gaussian");
+  options.example("fastsplat pixel 3,0 --tile 0 --stream fail.fss --config tiny",
+                  "the words behind a mismatch that `verify` reported");
 }
 
 }  // namespace

@@ -99,6 +99,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   const auto& diverged = smallest.check.first;
   if (diverged) {
     report.operands = explain(source_of(beats), options.config, *diverged);
+    report.pixel = pixel_of(options.config, *diverged);
     report.place = rtl_place(options.config, *diverged, halo_of(report.document, *diverged));
   }
   const std::uint64_t cycle = diverged && diverged->rtl ? diverged->rtl->cycle : smallest.last_cycle;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "testbench/check/verify.hpp"
+#include "testbench/triage/pixel_words.hpp"
 #include "testbench/triage/rtl_place.hpp"
 #include "testbench/triage/shrink.hpp"
 
@@ -18,6 +19,7 @@ struct FailureReport {
   std::string divergence;  ///< of the small stream: stage, place, both values, bit difference; or the device's behaviour
   std::string operands;    ///< the model's operands; may be empty
   std::optional<RtlPlace> place;  ///< the module and instance that make the diverging word
+  std::optional<TilePixel> pixel;  ///< of the small stream, whose word diverged
   ShrinkReport shrink;
   std::uint64_t wave_from = 0, wave_to = 0;  ///< cycles of the waveform
   std::string no_waveform;                   ///< why the requested waveform is missing

@@ -3,6 +3,7 @@
 // to its files.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -45,6 +46,26 @@ TEST_F(VerifyFailure, IsShrunkAndReplayed) {
   EXPECT_NO_THROW(driver::require_covered(folder_ / "verify-failure.fss"));
   expect_success(
       fastsplat({"stream", "replay", folder_ / "verify-failure.fss", "--config", "tiny", "-o", folder_ / "a.exr"}));
+}
+
+// The command that follows the pixel shows the word that the model has where the RTL differs.
+TEST_F(VerifyFailure, IsFollowedThroughTheModel) {
+  const auto run = verify({"--random", "300", "--json", "result.json"}, here_);
+  ASSERT_EQ(run.code, 1) << run.err;
+  const auto failure = json_of().at("failure");
+  const std::string smallest = failure.at("smallest");  // "...: sheet R 0x13, RTL 0x0 (...)"
+  std::istringstream line(failure.at("follow").get<std::string>());
+  std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+  ASSERT_GT(words.size(), 5u) << smallest;
+  words.erase(words.begin());
+  const auto followed = fastsplat(words, here_);
+  expect_success(followed);
+  const auto end = smallest.find(", RTL"), begin = smallest.rfind(' ', end - 1) + 1;
+  const std::string word = smallest.substr(begin, end - begin);
+  std::printf("[figure] %s: %s\n", failure.at("follow").get<std::string>().c_str(), word.c_str());
+  EXPECT_NE(followed.out.find(" " + word + " "), std::string::npos) << smallest << "\n" << followed.out;
+  words.insert(words.end(), {"--volume", "shells:8"});
+  expect_error(fastsplat(words, here_), 2, {"--stream"});
 }
 
 // The named pixel lies in the tile, and the operands below belong to it.

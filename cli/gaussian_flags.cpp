@@ -11,7 +11,6 @@
 #include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
-#include "driver/tiles/gaussian_frame.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
@@ -116,15 +115,21 @@ std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {
   return remarks;
 }
 
-cmodel::Config load_for_gaussians(const ConfigFlags& flags) {
-  if (flags.config) return load(flags);
-  std::vector<std::string> changes = flags.changes;
+ConfigFlags for_gaussians(ConfigFlags flags) {
+  if (flags.config) return flags;
+  std::vector<std::string> changes;
   for (const std::string change : driver::kGaussianChanges) {
     const std::string key = change.substr(0, change.find('=') + 1);
     if (std::ranges::none_of(flags.changes, [&](const std::string& other) { return other.starts_with(key); }))
       changes.push_back(change);
   }
-  return load(driver::kGaussianConfig, changes);
+  flags.config = driver::kGaussianConfig;
+  flags.changes.insert(flags.changes.end(), changes.begin(), changes.end());
+  return flags;
+}
+
+driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads) {
+  return {scene, scene::project_all(scene, nullptr, threads), config, threads};
 }
 
 std::string summary(const scene::GaussianScene& scene) {

@@ -10,6 +10,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/scene_flags.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "golden/gaussians.hpp"
 #include "scene/display.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
@@ -43,9 +44,11 @@ std::vector<std::string> inputs_of(const GaussianFlags& flags);
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
 /// GaussianCloud::remarks as warnings that name the scene.
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud);
-/// The named configuration; without a name, `ellipse` with every sample composited and golden's early-termination
-/// threshold.
-cmodel::Config load_for_gaussians(const ConfigFlags& flags);
+/// Without a name, that of `ellipse` with every sample composited and golden's early-termination threshold.
+ConfigFlags for_gaussians(ConfigFlags flags);
+inline cmodel::Config load_for_gaussians(const ConfigFlags& flags) { return load(for_gaussians(flags)); }
+/// Compiles a view of them for the device.
+driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads);
 /// "lastchance.splat, 14,007 Gaussians, degree 0, 512x512 pixels".
 std::string summary(const scene::GaussianScene& scene);
 

@@ -30,8 +30,6 @@ void check(const RenderArguments& arguments, Engine engine) {
     throw_usage({.where = flag, .what = what, .expected = {}, .got = {}, .fix = fix});
   };
   const std::string none = "it cannot be combined with --gaussians";
-  if (engine == Engine::Rtl)
-    refuse("--engine rtl", "does not support 3-D Gaussians", "use --engine cmodel, its bit-accurate model");
   if (engine != Engine::Golden && arguments.gaussians.order)
     refuse("--order", "the device supports one order only, that of its records",
            "add --engine golden, or leave it out");
@@ -69,6 +67,8 @@ struct Result {
   const scene::GaussianScene& scene;
   std::variant<GoldenGaussians, DeviceGaussians> of{};
   FrameFiles files{};
+  std::optional<RtlRun> checked{};  ///< engine rtl only
+  Wave wave{};
   double seconds = 0.0;
 };
 
@@ -118,7 +118,7 @@ Json to_json(const DeviceGaussians& device) {
                     {"saturated", device.report.saturated}, {"cut", device.report.cut},
                     {"in_tiles", device.report.in_tiles},   {"records", device.report.records},
                     {"tiles", device.report.tiles}};
-  json["units"] = cli::to_json(device.units);
+  if (device.units.fast + device.units.plain > 0) json["units"] = cli::to_json(device.units);
   auto& counts = json["counters"];
   device.counters.for_each(
       [&](std::string_view name, std::uint64_t value, std::string_view) { counts[std::string(name)] = value; });
@@ -145,6 +145,8 @@ Json to_json(const Result& result) {
   if (result.scene.cloud->linear) json["gaussians"]["linear"] = true;
   if (!result.scene.cloud->remarks.empty()) json["gaussians"]["remarks"] = result.scene.cloud->remarks;
   std::visit([&json](const auto& of) { json.update(to_json(of)); }, result.of);
+  if (result.checked) json.update(to_json(*result.checked));
+  if (!result.wave.file.empty()) json["wave"] = to_json(result.wave);
   json["outputs"] = result.files.out;
   if (!result.files.raw.empty()) json["raw"] = result.files.raw;
   json["seconds"] = result.seconds;
@@ -231,14 +233,17 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   const Engine engine = engine_from(arguments.engine);
   check(arguments, engine);
   std::optional<cmodel::Config> config;
-  if (engine == Engine::CModel) config = load_for_gaussians(arguments.config);
+  if (engine != Engine::Golden) config = load_for_gaussians(arguments.config);
   const GaussianView view = describe(arguments.gaussians, arguments.scene);
   check_outputs(
       {.images = arguments.out,
        .maps = {},
        .raws = {arguments.raw},
-       .others = {arguments.common.json},
+       .others = {arguments.common.json, arguments.wave.file},
        .inputs = joined(inputs_of(arguments.gaussians), inputs_of_config(arguments.config.config.value_or("")))});
+  if (engine == Engine::Rtl)
+    prepare_rtl(*config, wanted_abilities(arguments.wave), arguments.common,
+                "use --engine cmodel, its bit-accurate model");
   const scene::GaussianScene scene = build(arguments.gaussians, view);
 
   Result result{.engine = arguments.engine, .scene = scene, .files = {.out = arguments.out, .raw = arguments.raw}};
@@ -246,13 +251,23 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   const auto projected = scene::project_all(scene, &projection, arguments.common.threads);
   const images::Metadata metadata = gaussian_metadata(arguments.engine, scene, config, view.order);
   std::optional<driver::GaussianFrame> frame;
+  std::optional<RtlRun> checked;
   if (config) frame.emplace(scene, projected, *config, arguments.common.threads);
   output.line(summary(scene));
   output.remark(remarks(*scene.cloud));
   const auto shown = [&](const Image& image) { return shown_of(image, view.shown.display, scene.cloud->linear); };
   if (frame) {
     driver::GaussianRender render;
-    {
+    if (engine == Engine::Rtl) {
+      ProgressBar bar(arguments.engine, watching(arguments.common));
+      const cmodel::BeatSource source = [&](const cmodel::BeatSink& sink) {
+        render.report = frame->emit(sink, bar.callback());
+      };
+      auto [words, counters] =
+          render_rtl(source, frame->grid(), *config, arguments.check ? Checking::EveryTap : Checking::Off, checked);
+      render.frame = std::move(words);
+      render.counters = counters;
+    } else {
       ProgressBar bar(arguments.engine, watching(arguments.common));
       render = driver::render_gaussians(*frame, {.threads = arguments.common.threads,
                                                  .unit = arguments.plain ? driver::Unit::Plain : driver::Unit::Fast,
@@ -261,9 +276,10 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     }
     DeviceGaussians device{*config, render.report, render.counters, render.units, render.counted};
     device.report.projection = projection;
-    output.line(to_text(device));
+    output.line(to_text(device) + (checked ? to_text(*checked) : ""));
     output.remark(remarks(device));
     result.of = device;
+    result.checked = checked;
     write_device_images(render.frame, result.files.out, result.files.raw, shown, metadata, output);
   } else {
     GoldenGaussians golden{projection};
@@ -280,10 +296,16 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
     result.of = golden;
     write_images(result.files.out, image, shown, metadata, output);
   }
+  ExitCode code = ExitCode::Pass;
+  if (checked) {
+    result.wave = write_wave(
+        arguments.wave, [&](const cmodel::BeatSink& sink) { frame->emit(sink); }, *config, *checked);
+    code = print_wave(result.wave, checked->exit_code(), output);
+  }
   result.seconds = output.seconds();
   output.json(to_json(result));
   output.note_time("rendered");
-  return ExitCode::Pass;
+  return code;
 }
 
 }  // namespace fastsplat::cli

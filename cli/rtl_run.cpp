@@ -7,7 +7,6 @@
 
 #include "cli/progress_bar.hpp"
 #include "driver/tiles/compile.hpp"
-#include "driver/tiles/run_device.hpp"
 
 namespace fastsplat::cli {
 
@@ -28,8 +27,8 @@ void prepare_rtl(const cmodel::Config& config, const std::vector<testbench::RtlA
   testbench::require_rtl(config, abilities, otherwise);
 }
 
-driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
-                                const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
+driver::DeviceFrame render_rtl(const cmodel::BeatSource& source, const driver::TileGrid& grid,
+                               const cmodel::Config& config, Checking checking, std::optional<RtlRun>& run) {
   testbench::RtlDevice* rtl = nullptr;
   const auto device = [&](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
     if (checking == Checking::EveryTap) {
@@ -50,7 +49,7 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
   };
   run.emplace();
   run->config = config;
-  return driver::run_device(scene, config, device, options, [&](cmodel::Device& finished) {
+  return driver::run_device(source, grid, config, device, [&](cmodel::Device& finished) {
     run->stalls = rtl->cycle_counters();
     run->last_cycle = rtl->cycles();
     if (checking == Checking::Off) return;
@@ -61,6 +60,19 @@ driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config&
       run->difference = run->check->differences.front();
     }
   });
+}
+
+driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
+                                const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
+  const driver::CompiledFrame compiled(scene, config);
+  driver::DeviceRender out;
+  const cmodel::BeatSource source = [&](const cmodel::BeatSink& sink) {
+    out.report = compiled.emit(sink, options.progress);
+  };
+  auto [frame, counters] = render_rtl(source, compiled.grid(), config, checking, run);
+  out.frame = std::move(frame);
+  out.counters = counters;
+  return out;
 }
 
 std::string mismatches_text(const testbench::CheckReport& check) {
@@ -79,13 +91,19 @@ nlohmann::ordered_json by_tap_json(const testbench::CheckReport& check) {
   return json;
 }
 
+Wave write_wave(const WaveFlags& flags, const cmodel::BeatSource& source, const cmodel::Config& config,
+                const RtlRun& run) {
+  if (flags.file.empty()) return {};
+  testbench::VerifyOptions options;
+  options.config = config;
+  return write_wave(flags, source, std::move(options), run.last_cycle);
+}
+
 Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel::Config& config, const RtlRun& run) {
   if (flags.file.empty()) return {};
   const driver::CompiledFrame compiled(scene, config);
-  testbench::VerifyOptions options;
-  options.config = config;
   return write_wave(
-      flags, [&](const cmodel::BeatSink& sink) { compiled.emit(sink); }, std::move(options), run.last_cycle);
+      flags, [&](const cmodel::BeatSink& sink) { compiled.emit(sink); }, config, run);
 }
 
 std::string to_text(const RtlRun& run) {

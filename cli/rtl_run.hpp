@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/wave_flags.hpp"
 #include "driver/tiles/render.hpp"
+#include "driver/tiles/run_device.hpp"
 #include "testbench/check/verify.hpp"
 #include "testbench/device/rtl_module.hpp"
 
@@ -34,10 +35,15 @@ struct RtlRun {
   ExitCode exit_code() const;
 };
 
+/// Simulates what `source` sends, a subset stream.
+driver::DeviceFrame render_rtl(const cmodel::BeatSource& source, const driver::TileGrid& grid,
+                               const cmodel::Config& config, Checking checking, std::optional<RtlRun>& run);
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run);
 
 /// Simulates the frame again and writes its waveform.
+Wave write_wave(const WaveFlags& flags, const cmodel::BeatSource& source, const cmodel::Config& config,
+                const RtlRun& run);
 Wave write_wave(const WaveFlags& flags, const scene::Scene& scene, const cmodel::Config& config, const RtlRun& run);
 
 std::string to_text(const RtlRun& run);

@@ -107,6 +107,7 @@ void declare(Options& options, VerifyArguments& to) {
   options.word("--junit", to.junit, "FILE", "write the result as JUnit XML, one case per stream");
   declare(options, to.wave);
   declare(options, to.scene);
+  declare(options, to.gaussians);
   declare(options, to.common);
   options.example("fastsplat verify --random 1000 --seed 7 --config tiny --ready random-50",
                   "RTL against model on random streams, every tap compared");
@@ -118,12 +119,13 @@ void declare(Options& options, VerifyArguments& to) {
 
 Source source_from(const VerifyArguments& arguments) {
   const auto& scene = arguments.scene;
-  const bool has_scene = scene.file || scene.volume;
+  const bool has_scene = scene.file || scene.volume || arguments.gaussians.file;
+  if (!arguments.gaussians.file) refuse_without_gaussians(arguments.gaussians);
   const int given = (has_scene ? 1 : 0) + (arguments.stream.empty() ? 0 : 1) + (arguments.random ? 1 : 0);
   if (given != 1) {
     throw_usage({.where = {},
                  .what = given == 0 ? "nothing to verify" : "more than one thing to verify",
-                 .expected = "one of --random N, --stream FILE, --volume NAME or --scene FILE",
+                 .expected = "one of --random N, --stream FILE, --volume NAME, --scene FILE or --gaussians FILE",
                  .got = {},
                  .fix = "for example --random 1000"});
   }
@@ -243,12 +245,20 @@ Checked verify_random(const VerifyArguments& arguments, const testbench::VerifyO
 Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions options, const Progress& progress,
                      const Output& output) {
   options.scope = cmodel::StreamScope::Subset;
-  const auto scene = build(arguments.scene);
-  output.remark(remarks(*scene.volume));
-  const auto compiled = std::make_shared<const driver::CompiledFrame>(scene, options.config);
-  const cmodel::BeatSource source = [compiled, progress](const cmodel::BeatSink& sink) {
-    compiled->emit(sink, progress);
+  const auto emitting = [&](auto compiled) -> cmodel::BeatSource {
+    return [compiled, progress](const cmodel::BeatSink& sink) { compiled->emit(sink, progress); };
   };
+  cmodel::BeatSource source;
+  if (arguments.gaussians.file) {
+    const auto scene = build(arguments.gaussians, describe(arguments.gaussians, arguments.scene));
+    output.remark(remarks(*scene.cloud));
+    source = emitting(
+        std::make_shared<const driver::GaussianFrame>(compile(scene, options.config, arguments.common.threads)));
+  } else {
+    const auto scene = build(arguments.scene);
+    output.remark(remarks(*scene.volume));
+    source = emitting(std::make_shared<const driver::CompiledFrame>(scene, options.config));
+  }
   Checked out = verify_one(source, options, "scene");
   // Without splats, the pixels are equal even if the device is wrong.
   if (out.result.verdict == testbench::Verdict::Pass && out.result.counters.splats == 0)

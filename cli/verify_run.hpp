@@ -11,6 +11,7 @@
 #include "base/progress.hpp"
 #include "cli/common.hpp"
 #include "cli/config_flags.hpp"
+#include "cli/gaussian_flags.hpp"
 #include "cli/output.hpp"
 #include "cli/scene_flags.hpp"
 #include "cli/wave_flags.hpp"
@@ -22,6 +23,7 @@ namespace fastsplat::cli {
 struct VerifyArguments {
   Common common;
   SceneFlags scene;
+  GaussianFlags gaussians;       ///< instead of a volume's scene
   std::string stream;            ///< a .fss file; empty for none
   std::optional<int> random;     ///< splats per seed
   std::uint64_t seed = 1;        ///< of the first run

@@ -16,6 +16,7 @@
 #include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
+#include "cli/gaussian_flags.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
@@ -39,7 +40,8 @@ constexpr int kLatency = 40;  ///< cycles of memory latency in --cull-table by d
 struct CyclesArguments {
   Common common;
   SceneFlags scene;
-  std::string stream;  ///< a recorded stream instead of a scene
+  GaussianFlags gaussians;  ///< instead of a volume's scene
+  std::string stream;       ///< a recorded stream instead of a scene
   ConfigFlags config;
   ScalingFlags scaling;
   std::string input = "always", ready = "always", trace;
@@ -216,6 +218,8 @@ void check_culling(const CyclesArguments& arguments, const cmodel::Config& confi
   };
   if (arguments.cull_table && !arguments.stream.empty())
     refuse("--cull-table", "a recorded stream supports one cull.map only", "use a scene instead of --stream");
+  if (arguments.cull_table && arguments.gaussians.file)
+    refuse("--cull-table", "3-D Gaussians have no cull groups", "use a volume, or leave it out");
   if (arguments.fetch >= 0 && !config.culls() && !arguments.cull_table)
     refuse("--fetch", "requires culling, and cull.map is off", "add --set cull.map=block");
   if (arguments.fetch >= 0 && arguments.scaling.any())
@@ -225,7 +229,8 @@ void check_culling(const CyclesArguments& arguments, const cmodel::Config& confi
 
 ExitCode run(const CyclesArguments& arguments) {
   const Output output(arguments.common);
-  if (!arguments.stream.empty() && !(arguments.scene == SceneFlags{})) {
+  if (!arguments.gaussians.file) refuse_without_gaussians(arguments.gaussians);
+  if (!arguments.stream.empty() && (arguments.gaussians.file || !(arguments.scene == SceneFlags{}))) {
     throw_usage({.where = "--stream",
                  .what = "cannot be combined with a scene's flags",
                  .expected = {},
@@ -247,9 +252,11 @@ ExitCode run(const CyclesArguments& arguments) {
                  .maps = {},
                  .raws = {},
                  .others = {arguments.trace, arguments.common.json},
-                 .inputs = joined(arguments.stream.empty() ? inputs_of(arguments.scene) : std::vector{arguments.stream},
+                 .inputs = joined(arguments.gaussians.file   ? inputs_of(arguments.gaussians)
+                                  : arguments.stream.empty() ? inputs_of(arguments.scene)
+                                                             : std::vector{arguments.stream},
                                   inputs_of_config(arguments.config.config.value_or("")))});
-  const auto config = load(arguments.config);
+  const auto config = arguments.gaussians.file ? load_for_gaussians(arguments.config) : load(arguments.config);
   check_culling(arguments, config);
   if (auto wrong = cmodel::cycle_violation(config)) {
     wrong->where = "configuration " + config.name + ": " + wrong->where;
@@ -314,6 +321,16 @@ ExitCode run(const CyclesArguments& arguments) {
     const auto device = make(cmodel::StreamScope::Whole);
     result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
+  } else if (arguments.gaussians.file) {
+    const auto scene = build(arguments.gaussians, describe(arguments.gaussians, arguments.scene));
+    output.remark(remarks(*scene.cloud));
+    result.scene = summary(scene);
+    const auto frame = compile(scene, config, arguments.common.threads);
+    ProgressBar bar("cycles", watching(arguments.common));
+    const auto device = make(cmodel::StreamScope::Subset);
+    frame.emit([&](std::span<const cmodel::Beat> beats) { device->consume(beats); }, bar.callback());
+    device->finish();
+    take(*device);
   } else {
     const auto scene = build(arguments.scene);
     output.remark(remarks(scene));
@@ -347,6 +364,7 @@ ExitCode run(const CyclesArguments& arguments) {
 
 void declare(Options& options, CyclesArguments& to) {
   declare(options, to.scene);
+  declare(options, to.gaussians);
   options.group("Scene");
   options.word("--stream", to.stream, "FILE", "use a recorded stream instead of a scene");
   options.group("Engine");

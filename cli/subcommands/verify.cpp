@@ -36,9 +36,10 @@ bool has_rtl_fault(const VerifyArguments& arguments) {
          testbench::planted_fault_from(arguments.fault).where == testbench::PlantedFault::Where::Rtl;
 }
 
-/// A fault in the RTL implies its configuration, unless one is given.
+/// A fault in the RTL implies its configuration, unless one is given; so do 3-D Gaussians.
 ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
+  if (arguments.gaussians.file && !has_rtl_fault(arguments)) return for_gaussians(config);
   if (arguments.fault.empty() || config.config) return config;
   if (has_rtl_fault(arguments))
     config.config = testbench::breakable_config(testbench::planted_fault_from(arguments.fault));
@@ -94,7 +95,8 @@ void check_files(const VerifyArguments& arguments, const ConfigFlags& config, So
   names.others = named;
   names.inputs = inputs_of_config(config.config.value_or(""));
   if (source == Source::Stream) names.inputs.push_back(arguments.stream);
-  if (source == Source::Scene) names.inputs = joined(names.inputs, inputs_of(arguments.scene));
+  if (source == Source::Scene)
+    names.inputs = joined(joined(names.inputs, inputs_of(arguments.scene)), inputs_of(arguments.gaussians));
   check_outputs(names);
 }
 

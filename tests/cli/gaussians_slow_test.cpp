@@ -55,6 +55,34 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
   expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
 }
 
+// On a small device with ellipses and every sample: words, taps and cycles.
+TEST(GaussiansRun, TheRtlIsTheModelAndTakesItsCycles) {
+  const TempFolder folder;
+  const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), {"--gaussians", "shells:60", "--size", "40x36", "--config",
+                               FASTSPLAT_SOURCE_DIR "/configs/faults/westover.toml"});
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = fastsplat(words);
+    expect_success(result);
+    return result;
+  };
+  with({"render", "--engine", "cmodel"}, {"--raw", folder / "model.exr"});
+  const Json rtl =
+      Json::parse(with({"render", "--engine", "rtl", "--check"}, {"--raw", folder / "rtl.exr", "--json", "-"}).out);
+  EXPECT_EQ(rtl["check"]["mismatches"], 0);
+  expect_success(fastsplat({"compare", folder / "model.exr", folder / "rtl.exr", "--max-lsb", "0"}));
+  const Json verified = Json::parse(with({"verify"}, {"--json", "-"}).out);
+  EXPECT_EQ(verified["mismatches"], 0);
+  const Json cycles = Json::parse(with({"cycles"}, {"--json", "-"}).out);
+  std::printf("[figure] comparisons = %d (limit > 1000), cycles of the RTL = %d, of the model = %d (limit: equal)\n",
+              verified["comparisons"].get<int>(), rtl["cycles_rtl"].get<int>(), cycles["cycles"]["actual"].get<int>());
+  EXPECT_GT(verified["comparisons"].get<int>(), 1000);
+  EXPECT_EQ(rtl["cycles_rtl"], cycles["cycles"]["actual"]);
+  expect_error(fastsplat({"verify", "--gaussians", "shells:9", "--random", "9"}), 2, {"more than one thing"});
+  expect_error(fastsplat({"verify", "--up", "z", "--random", "9"}), 2, {"--up"});
+  expect_error(fastsplat({"cycles", "--gaussians", "shells:9", "--cull-table"}), 2, {"--cull-table"});
+}
+
 // Axis, anti-aliasing and colours follow the header; --up takes precedence.
 TEST(GaussiansRun, FollowsTheHeader) {
   const TempFolder folder;
@@ -141,7 +169,8 @@ TEST(GaussiansRun, MisuseIsExit2) {
            Misuse{{"--gaussians", "shells:9", "--low-pass", "0"}, {"--low-pass", "0.01..100"}},
            Misuse{{"--gaussians", "shells:9", "--cutoff", "9"}, {"--cutoff", "1..4"}},
            Misuse{{"--gaussians", "shells:9", "--order", "pixels", "--engine", "cmodel"}, {"--order", "golden"}},
-           Misuse{{"--gaussians", "shells:9", "--engine", "rtl"}, {"--engine rtl", "cmodel"}},
+           Misuse{{"--gaussians", "shells:9", "--engine", "rtl", "--config", "base"}, {"base", "ellipse"}},
+           Misuse{{"--gaussians", "shells:9", "--check"}, {"--check", "rtl"}},
            Misuse{{"--gaussians", "shells:9", "--engine", "cmodel", "--config", "base"}, {"base", "ellipse"}},
            Misuse{{"--gaussians", "shells:9", "--orbit", "0..90", "--frames", "3"}, {"--orbit"}},
            Misuse{{"--gaussians", "shells:9", "--save-scene", folder / "a.toml"}, {"--save-scene"}},

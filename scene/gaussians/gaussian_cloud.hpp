@@ -29,6 +29,15 @@ struct Gaussian {
 /// Which of the file's axes points up.
 enum class UpAxis { X, Y, Z, MinusX, MinusY, MinusZ };
 
+/// Gaussians of a file that cannot be drawn, by cause.
+struct DroppedGaussians {
+  std::string cause;      ///< "scale_1 is not finite", in the names of a PLY's properties
+  std::size_t count = 0;  ///< Gaussians with this cause
+  std::size_t first = 0;  ///< the first of them, counted from 0 in the file
+
+  bool operator==(const DroppedGaussians&) const = default;
+};
+
 struct GaussianCloud {
   std::string name;    ///< "shells:2000", or the file's name without its folder
   std::string source;  ///< origin, for metadata
@@ -38,7 +47,8 @@ struct GaussianCloud {
   std::optional<UpAxis> up{};          ///< as declared by the file
   bool antialiased = false;            ///< trained so that the low-pass dims a footprint as much as it widens it
   bool linear = false;                 ///< colours are linear light, not encoded as sRGB
-  std::vector<std::string> remarks{};  ///< dropped, assumed or unsupported content, a sentence each
+  std::vector<DroppedGaussians> dropped{};  ///< by the first of each cause
+  std::vector<std::string> remarks{};       ///< dropped, assumed or unsupported content, a sentence each
 
   std::span<const glm::vec3> harmonics_of(std::size_t i) const {
     const auto count = static_cast<std::size_t>(harmonic_count(degree));

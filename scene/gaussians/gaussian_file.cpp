@@ -3,14 +3,55 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "base/error.hpp"
 #include "base/lower_case.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/other_formats.hpp"
+#include "scene/gaussians/splat_file.hpp"
+#include "scene/gaussians/spz_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 
 namespace fastsplat::scene {
+namespace {
+
+struct Format {
+  const char* ending;
+  bool (*is)(std::string_view head);  ///< nullptr: recognised by its ending
+  void (*read)(const std::string& bytes, GaussianCloud& to);
+};
+constexpr std::array kFormats{
+    Format{".ply", is_ply, read_ply},
+    Format{".spz", is_spz, read_spz},
+    Format{".splat", nullptr, read_splat},
+};
+
+const Format* format_by_content(std::string_view head) {
+  const auto* const found =
+      std::ranges::find_if(kFormats, [head](const Format& one) { return one.is != nullptr && one.is(head); });
+  return found == kFormats.end() ? nullptr : found;
+}
+const Format* format_by_ending(const std::string& ending) {
+  const auto* const found =
+      std::ranges::find(kFormats, ending, [](const Format& one) { return std::string_view(one.ending); });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+}  // namespace
+
+void refuse_dropped(const GaussianCloud& cloud) {
+  if (cloud.dropped.empty()) return;
+  std::size_t count = 0;
+  for (const DroppedGaussians& some : cloud.dropped) count += some.count;
+  throw_input({.where = cloud.source,
+               .what = fmt::format("{} of {} Gaussians cannot be drawn", count, count + cloud.gaussians.size()),
+               .expected = "finite numbers and a non-zero rotation",
+               .got = fmt::format("Gaussian {} (from 0): its {}", cloud.dropped[0].first, cloud.dropped[0].cause),
+               .fix = "leave out --strict to drop them"});
+}
 
 void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmonics, const std::string& where) {
   const std::string fault = fault_of(gaussian, harmonics);
@@ -30,22 +71,28 @@ GaussianCloud load_gaussians(const std::string& name_or_path) {
   const auto files = files_of_gaussians(name_or_path);
   if (files.empty()) return make_synthetic_gaussians(name_or_path);
   const std::string head = start_of(files[0], kHeadBytes);
-  if (is_ply(head)) return read_gaussian_ply(files[0]);
-  refuse_other_formats(files[0], head);
   const std::string ending = ending_of(files[0]);
-  if (ending == ".ply") return read_gaussian_ply(files[0]);
-  if (ending == ".splat") return read_splat_file(files[0]);
+  const Format* format = format_by_content(head);
+  if (format == nullptr) {
+    refuse_other_formats(files[0], head);
+    format = format_by_ending(ending);
+  }
+  if (format != nullptr) {
+    GaussianCloud cloud{.name = files[0].filename().string(), .source = files[0].string()};
+    format->read(read_text_file(files[0], kMostGaussianBytes), cloud);
+    return cloud;
+  }
   if (head.starts_with("NRRD") || head.find("ElementDataFile") != std::string::npos || ending == ".nii" ||
       files[0].string().ends_with(".nii.gz")) {
     throw_input({.where = name_or_path,
                  .what = "a volume, not 3-D Gaussians",
-                 .expected = ".ply or .splat",
+                 .expected = kReadFormats,
                  .got = {},
                  .fix = "give it with --volume"});
   }
   throw_input({.where = name_or_path,
                .what = "neither a file of 3-D Gaussians nor a built-in scene",
-               .expected = fmt::format(".ply or .splat, or {}", fmt::join(synthetic_gaussian_names(), ", ")),
+               .expected = fmt::format("{}, or {}", kReadFormats, fmt::join(synthetic_gaussian_names(), ", ")),
                .got = {},
                .fix = "for example --gaussians shells:2000"});
 }

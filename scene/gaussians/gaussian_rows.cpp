@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 
 namespace fastsplat::scene {
 namespace {
+
+constexpr std::size_t kMostNamed = 4;  // causes in a remark
 
 std::string fault_of_rotation(const glm::dvec4& rotation) {
   for (int i = 0; i < 4; ++i)
@@ -50,22 +53,36 @@ void GaussianRows::add(Gaussian gaussian, const glm::dvec4& rotation, std::span<
 }
 
 void GaussianRows::drop(const std::string& fault) {
-  if (dropped_++ == 0) first_ = rows_, first_fault_ = fault;
+  const auto known = std::ranges::find(dropped_, fault, &DroppedGaussians::cause);
+  if (known == dropped_.end())
+    dropped_.push_back({fault, 1, rows_});
+  else
+    ++known->count;
   ++rows_;
 }
 
 void GaussianRows::end() {
-  if (dropped_ == 0) return;
-  if (dropped_ < rows_) {
+  if (dropped_.empty()) return;
+  std::size_t count = 0;
+  std::vector<std::string> causes;
+  for (const DroppedGaussians& some : dropped_) {
+    count += some.count;
+    if (causes.size() < kMostNamed) causes.push_back(fmt::format("{} times {}", some.count, some.cause));
+  }
+  if (dropped_.size() > kMostNamed) causes.push_back(fmt::format("{} other causes", dropped_.size() - kMostNamed));
+  const DroppedGaussians& first = dropped_.front();
+  if (count < rows_) {
     to_.remarks.push_back(
         fmt::format("{} of {} Gaussians cannot be drawn and were dropped; the first is Gaussian {} (from 0): its {}",
-                    dropped_, rows_, first_, first_fault_));
+                    count, rows_, first.first, first.cause) +
+        (dropped_.size() > 1 ? fmt::format("; causes: {}", fmt::join(causes, ", ")) : ""));
+    to_.dropped.insert(to_.dropped.end(), dropped_.begin(), dropped_.end());
     return;
   }
   throw_input({.where = where_,
                .what = fmt::format("none of the {} Gaussians can be drawn", rows_),
                .expected = "finite numbers and a non-zero rotation",
-               .got = fmt::format("Gaussian 0: its {}", first_fault_),
+               .got = fmt::format("Gaussian 0: its {}", first.cause),
                .fix = "the file is damaged, or its training failed: write or download it again"});
 }
 

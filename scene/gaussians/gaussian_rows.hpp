@@ -20,14 +20,14 @@ class GaussianRows {
   void add(Gaussian gaussian, const glm::dvec4& rotation, std::span<const glm::vec3> harmonics);
   /// The next Gaussian is dropped for this reason.
   void drop(const std::string& fault);
-  /// Adds a remark with the number of dropped Gaussians. UserError (Input) if no Gaussian is left.
+  /// Adds dropped Gaussians to the cloud, with a remark. UserError (Input) if no Gaussian is left.
   void end();
 
  private:
   GaussianCloud& to_;
   std::string where_;
-  std::size_t rows_ = 0, dropped_ = 0, first_ = 0;
-  std::string first_fault_;
+  std::size_t rows_ = 0;
+  std::vector<DroppedGaussians> dropped_;
 };
 
 }  // namespace fastsplat::scene

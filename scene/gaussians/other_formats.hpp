@@ -10,12 +10,13 @@ namespace fastsplat::scene {
 /// Number of leading bytes that recognition needs.
 inline constexpr std::size_t kHeadBytes = 8192;
 
-/// Throws UserError (Input) for a file of a format other than .ply and .splat, with its format and a program that makes
-/// a .ply of it. `head`: the file's first kHeadBytes, or all of it; empty for a missing file.
+/// The formats that are read, for messages.
+inline constexpr const char* kReadFormats = ".ply, .splat or .spz";
+
+/// Throws UserError (Input) for a file of another format, with its format and a program that makes a .ply of it.
+/// `head`: the file's first kHeadBytes, or all of it; empty for a missing file.
 void refuse_other_formats(const std::filesystem::path& path, std::string_view head);
 
-/// Whether it is a PLY file, independent of its name.
-bool is_ply(std::string_view head);
 /// Whether every record of the head is a valid .splat record, which is unlikely in other formats.
 bool looks_like_splat(std::string_view head);
 

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY as trainers of 3-D Gaussians write it (Kerbl et al. 2023, save_ply of their code).
+#include "scene/gaussians/ply_file.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
 #include <utility>
 
-#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "base/read_file.hpp"
-#include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
-#include "scene/gaussians/gaussian_scene.hpp"
 #include "scene/gaussians/ply_columns.hpp"
 #include "scene/gaussians/ply_hints.hpp"
 #include "scene/gaussians/ply_packed.hpp"
 #include "scene/gaussians/ply_rows.hpp"
-#include "scene/gaussians/splat_file.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -78,41 +71,18 @@ bool read_elements(const PlyHeader& header, PlyRows& rows, const std::string& wh
   return true;
 }
 
-/// The properties in the order in which trainers write them.
-std::vector<std::string> written_names(int degree) {
-  std::vector<std::string> names{"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"};
-  for (int i = 0; i < 3 * (harmonic_count(degree) - 1); ++i) names.push_back(fmt::format("f_rest_{}", i));
-  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
-    names.emplace_back(name);
-  return names;
-}
-
-std::vector<float> written_row(const Gaussian& one, std::span<const glm::vec3> harmonics) {
-  constexpr double kLeastScale = 1e-10, kLeastShare = 1e-6;
-  std::vector<float> row{one.position.x, one.position.y, one.position.z, 0.0F, 0.0F, 0.0F};
-  for (int c = 0; c < 3; ++c) row.push_back(harmonics[0][c]);
-  for (int c = 0; c < 3; ++c) {
-    for (const glm::vec3& harmonic : harmonics.subspan(1)) row.push_back(harmonic[c]);
-  }
-  const double opacity = std::clamp(static_cast<double>(one.opacity), kLeastShare, 1.0 - kLeastShare);
-  row.push_back(static_cast<float>(std::log(opacity / (1.0 - opacity))));
-  for (int i = 0; i < 3; ++i)
-    row.push_back(static_cast<float>(std::log(std::max(static_cast<double>(one.scale[i]), kLeastScale))));
-  for (int i = 0; i < 4; ++i) row.push_back(one.rotation[i]);
-  return row;
-}
-
 }  // namespace
 
-GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
-  const std::string where = path.string(), text = read_text_file(path, kMostGaussianBytes);
+bool is_ply(std::string_view head) { return head.starts_with("ply\n") || head.starts_with("ply\r"); }
+
+void read_ply(const std::string& text, GaussianCloud& cloud) {
+  const std::string where = cloud.source;
   const PlyHeader header = read_ply_header(text, where);
   const PlyElement* const vertices = header.find("vertex");
   if (vertices == nullptr)
     refuse_scene(where, "the header has no element vertex", "element vertex COUNT", {},
                  "check that this is the right file");
   const PlyHints hints = hints_of(header.comments);
-  GaussianCloud cloud{.name = path.filename().string(), .source = where};
   cloud.up = hints.up, cloud.antialiased = hints.antialiased, cloud.linear = hints.linear;
   cloud.remarks = hints.remarks;
   PlyRows rows(header, text, where);
@@ -132,31 +102,6 @@ GaussianCloud read_gaussian_ply(const std::filesystem::path& path) {
     cloud.remarks.push_back(
         fmt::format("the header declares SH degree {}, but the properties have degree {}, which is drawn",
                     *hints.degree, cloud.degree));
-  return cloud;
-}
-
-void save_gaussians(const GaussianCloud& cloud, const std::filesystem::path& path, PlyText text) {
-  if (path.extension() == ".splat") return write_text_file(path, splat_bytes(cloud));
-  const std::vector<std::string> names = written_names(cloud.degree);
-  std::string out = fmt::format("ply\nformat {} 1.0\n", text == PlyText::Ascii ? "ascii" : "binary_little_endian");
-  if (cloud.up) out += "comment Vertical Axis: " + up_axis_names()[static_cast<std::size_t>(*cloud.up)] + "\n";
-  if (cloud.antialiased) out += "comment SplatRenderMode: mip\n";
-  if (cloud.linear) out += "comment color_space: linear\n";
-  out += fmt::format("element vertex {}\n", cloud.gaussians.size());
-  for (const std::string& name : names) out += "property float " + name + "\n";
-  out += "end_header\n";
-  for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
-    const std::vector<float> row = written_row(cloud.gaussians[i], cloud.harmonics_of(i));
-    if (text == PlyText::Ascii) {
-      out += fmt::format("{}\n", fmt::join(row, " "));
-      continue;
-    }
-    for (const float value : row) {
-      const auto word = std::bit_cast<std::uint32_t>(value);
-      for (int byte = 0; byte < 4; ++byte) out.push_back(static_cast<char>((word >> (8 * byte)) & 0xFFU));
-    }
-  }
-  write_text_file(path, out);
 }
 
 }  // namespace fastsplat::scene

@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "base/error.hpp"
 #include "scene/gaussians/harmonics.hpp"
+#include "scene/gaussians/smallest_three.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -80,19 +79,10 @@ glm::dvec3 shares_11_10_11(std::uint32_t word) {
 }
 
 /// Three components of w, x, y, z within +-1/sqrt(2), in 10 bits each; the top two bits select the omitted one.
-glm::dvec4 rotation_of(std::uint32_t word) {
-  glm::dvec4 out(0.0);
-  const auto largest = static_cast<int>(word >> 30U);
-  double rest = 1.0;
-  unsigned shift = 30;
-  for (int i = 0; i < 4; ++i) {
-    if (i == largest) continue;
-    shift -= 10;
-    out[i] = (share_of(word, shift, 10) - 0.5) * std::numbers::sqrt2;
-    rest -= out[i] * out[i];
-  }
-  out[largest] = std::sqrt(std::max(rest, 0.0));
-  return out;
+glm::dvec4 rotation_of_word(std::uint32_t word) {
+  SmallestThree code{.largest = static_cast<int>(word >> 30U)};
+  for (unsigned i = 0; i < 3; ++i) code.others[i] = (share_of(word, 20 - 10 * i, 10) - 0.5) * std::numbers::sqrt2;
+  return rotation_of(code);
 }
 
 /// Maps a byte to -4..4: 0 and 255 are the ends, the others the middles of 256 steps.
@@ -154,7 +144,7 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
     gaussians[i] = {.position = chunk.position.between(shares_11_10_11(word(0))),
                     .scale = glm::exp(chunk.scale.between(shares_11_10_11(word(2)))),
                     .opacity = static_cast<float>(share_of(colour, 0, 8))};
-    rotations[i] = rotation_of(word(1));
+    rotations[i] = rotation_of_word(word(1));
     constants[i] = (chunk.colour.between(rgb) - 0.5) / kConstantHarmonic;
   }
   if (sh != nullptr) rows.require(*sh);

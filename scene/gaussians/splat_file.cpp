@@ -3,40 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-
 #include "base/error.hpp"
-#include "base/read_file.hpp"
-#include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/byte_words.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/harmonics.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
-std::uint32_t byte_at(const std::string& bytes, std::size_t at) { return static_cast<unsigned char>(bytes[at]); }
-
-float float_at(const std::string& bytes, std::size_t at) {
-  return std::bit_cast<float>(byte_at(bytes, at) | byte_at(bytes, at + 1) << 8U | byte_at(bytes, at + 2) << 16U |
-                              byte_at(bytes, at + 3) << 24U);
-}
-
-void append(std::string& to, float value) {
-  const auto word = std::bit_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) to.push_back(static_cast<char>((word >> shift) & 0xFFU));
-}
-
 /// The byte nearest to a number of 0..255.
-void append_byte(std::string& to, double value) {
-  to.push_back(static_cast<char>(static_cast<unsigned char>(std::clamp(std::floor(value + 0.5), 0.0, 255.0))));
-}
+void append_nearest(std::string& to, double value) { append_byte(to, nearest_step(value, 255.0)); }
 
 }  // namespace
 
-GaussianCloud read_splat_file(const std::filesystem::path& path) {
-  const std::string where = path.string(), bytes = read_text_file(path, kMostGaussianBytes);
+void read_splat(const std::string& bytes, GaussianCloud& cloud) {
+  const std::string& where = cloud.source;
   if (bytes.size() % kSplatBytes != 0) {
     throw_input({.where = where,
                  .what = "the file ends inside a Gaussian",
@@ -44,7 +25,6 @@ GaussianCloud read_splat_file(const std::filesystem::path& path) {
                  .got = fmt::format("{} bytes, {} too many", bytes.size(), bytes.size() % kSplatBytes),
                  .fix = "the file is truncated or not a .splat file: write or download it again"});
   }
-  GaussianCloud cloud{.name = path.filename().string(), .source = where, .degree = 0};
   GaussianRows rows(cloud, where);
   for (std::size_t at = 0; at < bytes.size(); at += kSplatBytes) {
     Gaussian one;
@@ -62,19 +42,18 @@ GaussianCloud read_splat_file(const std::filesystem::path& path) {
     rows.add(one, rotation, {&constant, 1});
   }
   rows.end();
-  return cloud;
 }
 
 std::string splat_bytes(const GaussianCloud& cloud) {
   std::string out;
   for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
     const Gaussian& one = cloud.gaussians[i];
-    for (int axis = 0; axis < 3; ++axis) append(out, one.position[axis]);
-    for (int axis = 0; axis < 3; ++axis) append(out, one.scale[axis]);
+    for (int axis = 0; axis < 3; ++axis) append_float(out, one.position[axis]);
+    for (int axis = 0; axis < 3; ++axis) append_float(out, one.scale[axis]);
     for (int c = 0; c < 3; ++c)
-      append_byte(out, 255.0 * (0.5 + kConstantHarmonic * static_cast<double>(cloud.harmonics_of(i)[0][c])));
-    append_byte(out, 255.0 * static_cast<double>(one.opacity));
-    for (int k = 0; k < 4; ++k) append_byte(out, 128.0 * static_cast<double>(one.rotation[k]) + 128.0);
+      append_nearest(out, 255.0 * (0.5 + kConstantHarmonic * static_cast<double>(cloud.harmonics_of(i)[0][c])));
+    append_nearest(out, 255.0 * static_cast<double>(one.opacity));
+    for (int k = 0; k < 4; ++k) append_nearest(out, 128.0 * static_cast<double>(one.rotation[k]) + 128.0);
   }
   return out;
 }

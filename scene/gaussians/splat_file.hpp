@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of a .splat file.
+// .splat, 32 bytes a Gaussian, little-endian: position and scale (linear) 3 floats each, R G B opacity and w x y z a
+// byte each.
 #pragma once
 
 #include <string>
@@ -10,6 +11,9 @@ namespace fastsplat::scene {
 
 inline constexpr std::size_t kSplatBytes = 32;
 
+/// Fills `to`, whose source names the file.
+void read_splat(const std::string& bytes, GaussianCloud& to);
+/// No harmonics above the constant; colour, opacity and rotation rounded to bytes.
 std::string splat_bytes(const GaussianCloud& cloud);
 
 }  // namespace fastsplat::scene

@@ -7,9 +7,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <sstream>
+
+#include "base/error.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
+#include "scene/gaussians/harmonics.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -23,7 +28,7 @@ void append(std::string& to, T value, bool big) {
   to += bytes;
 }
 
-double apart(float a, float b) {
+double relative_difference(float a, float b) {
   return std::abs(double(a) - double(b)) / std::max({1.0, std::abs(double(a)), std::abs(double(b))});
 }
 
@@ -128,15 +133,65 @@ double difference(const GaussianCloud& a, const GaussianCloud& b) {
   for (std::size_t i = 0; i < std::min(a.gaussians.size(), b.gaussians.size()); ++i) {
     const Gaussian &ours = a.gaussians[i], &theirs = b.gaussians[i];
     for (int axis = 0; axis < 3; ++axis) {
-      worst = std::max(worst, apart(ours.position[axis], theirs.position[axis]));
-      worst = std::max(worst, apart(ours.scale[axis], theirs.scale[axis]));
+      worst = std::max(worst, relative_difference(ours.position[axis], theirs.position[axis]));
+      worst = std::max(worst, relative_difference(ours.scale[axis], theirs.scale[axis]));
     }
-    for (int k = 0; k < 4; ++k) worst = std::max(worst, apart(ours.rotation[k], theirs.rotation[k]));
-    worst = std::max(worst, apart(ours.opacity, theirs.opacity));
+    for (int k = 0; k < 4; ++k) worst = std::max(worst, relative_difference(ours.rotation[k], theirs.rotation[k]));
+    worst = std::max(worst, relative_difference(ours.opacity, theirs.opacity));
   }
   for (std::size_t i = 0; i < std::min(a.harmonics.size(), b.harmonics.size()); ++i)
-    for (int c = 0; c < 3; ++c) worst = std::max(worst, apart(a.harmonics[i][c], b.harmonics[i][c]));
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, relative_difference(a.harmonics[i][c], b.harmonics[i][c]));
   return worst;
+}
+
+Apart apart(const GaussianCloud& a, const GaussianCloud& b) {
+  EXPECT_EQ(a.gaussians.size(), b.gaussians.size());
+  EXPECT_EQ(a.degree, b.degree);
+  Apart worst;
+  const auto note = [](double& most, double difference) { most = std::max(most, std::abs(difference)); };
+  for (std::size_t i = 0; i < std::min(a.gaussians.size(), b.gaussians.size()); ++i) {
+    const Gaussian &one = a.gaussians[i], &other = b.gaussians[i];
+    const auto ours = a.harmonics_of(i), theirs = b.harmonics_of(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      note(worst.position, double(one.position[axis]) - double(other.position[axis]));
+      note(worst.scale, std::log(double(one.scale[axis])) - std::log(double(other.scale[axis])));
+      note(worst.colour, kConstantHarmonic * (double(ours[0][axis]) - double(theirs[0][axis])));
+      for (std::size_t k = 1; k < std::min(ours.size(), theirs.size()); ++k)
+        note(k <= 3 ? worst.harmonic : worst.harmonics, double(ours[k][axis]) - double(theirs[k][axis]));
+    }
+    note(worst.rotation, 1.0 - std::abs(glm::dot(glm::dvec4(one.rotation), glm::dvec4(other.rotation))));
+    note(worst.opacity, double(one.opacity) - double(other.opacity));
+  }
+  return worst;
+}
+
+void print(const std::string& name, const Apart& apart) {
+  std::printf(
+      "[figure] %s: position %.2g, log scale %.2g, rotation %.2g, opacity %.2g, colour %.2g, harmonics %.2g and %.2g\n",
+      name.c_str(), apart.position, apart.scale, apart.rotation, apart.opacity, apart.colour, apart.harmonic,
+      apart.harmonics);
+}
+
+std::string refusal_of(const std::string& ending, const std::string& bytes) {
+  const TestFile file(ending, bytes);
+  try {
+    load_gaussians(file.path());
+  } catch (const UserError& error) {
+    const std::string line = error.what();
+    std::printf("%s\n", line.c_str());
+    EXPECT_EQ(error.code(), ExitCode::Input);
+    EXPECT_NE(line.find(file.path().string()), std::string::npos);
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    EXPECT_LT(line.size(), 400U);
+    return line;
+  }
+  ADD_FAILURE() << "it was read";
+  return {};
+}
+
+std::string patched(std::string bytes, std::size_t at, const std::string& others) {
+  EXPECT_LE(at + others.size(), bytes.size());
+  return bytes.replace(at, others.size(), others);
 }
 
 }  // namespace fastsplat::scene

@@ -44,4 +44,25 @@ PlyTable table_of(const GaussianCloud& cloud);
 /// The largest difference of any number, relative to 1 or to itself where it is larger.
 double difference(const GaussianCloud& a, const GaussianCloud& b);
 
+/// The largest difference of each attribute of two clouds of the same size and degree.
+struct Apart {
+  double position = 0.0;
+  double scale = 0.0;     ///< of natural logarithms
+  double rotation = 0.0;  ///< 1 minus the cosine of half the angle between
+  double opacity = 0.0;
+  double colour = 0.0;     ///< of 1/2 + the constant harmonic
+  double harmonic = 0.0;   ///< of degree 1
+  double harmonics = 0.0;  ///< of degrees above
+};
+Apart apart(const GaussianCloud& a, const GaussianCloud& b);
+/// Prints them as one figure.
+void print(const std::string& name, const Apart& apart);
+
+/// The message of the UserError (Input) with which a file of these bytes is refused. Fails the test if it is read, or
+/// if the message is not one line that names the file.
+std::string refusal_of(const std::string& ending, const std::string& bytes);
+
+/// `bytes` at `at` replaced by others.
+std::string patched(std::string bytes, std::size_t at, const std::string& others);
+
 }  // namespace fastsplat::scene

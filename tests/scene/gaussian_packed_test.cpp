@@ -111,33 +111,17 @@ TEST(PackedPly, IsReadToWithinItsSteps) {
       EXPECT_THAT(read.remarks, ElementsAre());
       ASSERT_EQ(read.gaussians.size(), 300U);
       ASSERT_EQ(read.degree, cloud.degree);
-      double position = 0.0, scale = 0.0, rotation = 0.0, opacity = 0.0, colour = 0.0, harmonic = 0.0;
-      for (std::size_t i = 0; i < 300; ++i) {
-        const Gaussian &one = cloud.gaussians[i], &other = read.gaussians[i];
-        for (int axis = 0; axis < 3; ++axis) {
-          position = std::max(position, std::abs(double(one.position[axis]) - double(other.position[axis])));
-          scale = std::max(scale, std::abs(logarithms(one)[axis] - logarithms(other)[axis]));
-          colour = std::max(colour, std::abs(colour_of(cloud, i)[axis] - colour_of(read, i)[axis]));
-          for (std::size_t k = 1; k < cloud.harmonics_of(i).size(); ++k)
-            harmonic = std::max(
-                harmonic, std::abs(double(cloud.harmonics_of(i)[k][axis]) - double(read.harmonics_of(i)[k][axis])));
-        }
-        rotation = std::max(rotation, 1.0 - std::abs(double(glm::dot(one.rotation, other.rotation))));
-        opacity = std::max(opacity, std::abs(double(one.opacity) - double(other.opacity)));
-      }
-      std::printf(
-          "[figure] %s, %s bounds: position %.2g, scale %.2g, rotation %.2g, opacity %.2g, colour %.2g, "
-          "harmonic %.2g\n",
-          name, coloured ? "coloured" : "plain", position, scale, rotation, opacity, colour, harmonic);
+      const Apart off = apart(cloud, read);
+      print(std::string(name) + (coloured ? ", coloured bounds" : ", plain bounds"), off);
       // Half steps: of 1023 over positions of -1.5 to 1.5 and logarithms that differ by at most 5, of 255 over 1 (and
       // colours a little beyond), of 256 over 8. Three components of a rotation each off by sqrt(2)/2046 and the fourth
       // by as much again: the angle between is below 4e-3, and 1 minus its cosine below 1e-5.
-      EXPECT_LT(position, 3.2 / 2046.0);
-      EXPECT_LT(scale, 5.0 / 2046.0);
-      EXPECT_LT(rotation, 1e-5);
-      EXPECT_LT(opacity, 0.51 / 255.0);
-      EXPECT_LT(colour, 0.6 / 255.0);
-      EXPECT_LE(harmonic, 4.0 / 256.0 + 1e-6);
+      EXPECT_LT(off.position, 3.2 / 2046.0);
+      EXPECT_LT(off.scale, 5.0 / 2046.0);
+      EXPECT_LT(off.rotation, 1e-5);
+      EXPECT_LT(off.opacity, 0.51 / 255.0);
+      EXPECT_LT(off.colour, 0.6 / 255.0);
+      EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
     }
   }
 }

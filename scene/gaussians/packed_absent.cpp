@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// In the lab's page, instead of the readers whose libraries WebAssembly does not have.
+#include "base/error.hpp"
+#include "scene/gaussians/packed_bytes.hpp"
+
+namespace fastsplat::scene {
+
+std::string unpack_zstd(std::string_view /*packed*/, std::size_t /*size*/, const std::string& where) {
+  throw_input({.where = where,
+               .what = "this page does not unpack Zstandard",
+               .expected = ".spz of version 2 or 3, or another format",
+               .got = ".spz of version 4",
+               .fix = "convert it: fastsplat gaussians convert scene.spz scene.ply"});
+}
+
+}  // namespace fastsplat::scene

@@ -52,7 +52,7 @@ void declare(Options& options, GaussianFlags& to) {
   const scene::GaussianDescription usual;
   options.group("3-D Gaussians");
   options.word("--gaussians", to.file, "FILE|NAME",
-               "draw a trained scene (.ply or .splat), or shells:2000 or cloud:500, instead of a volume");
+               "draw a trained scene (a file), or shells:2000 or cloud:500, instead of a volume");
   options.values(scene::synthetic_gaussian_names);
   options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
                  "axis that points up: x, y, z, -x, -y, -z (as declared by the file, else -y; z in built-in scenes)");
@@ -61,6 +61,7 @@ void declare(Options& options, GaussianFlags& to) {
                   scene::kLowPassLimits.high, usual.low_pass);
   static const std::string cutoff = fmt::format("radius of a footprint in standard deviations, {:g} to {:g} ({:g})",
                                                 scene::kCutoffLimits.low, scene::kCutoffLimits.high, usual.cutoff);
+  declare_strict(options, to.strict);
   options.number("--low-pass", to.low_pass, "NUMBER", low_pass.c_str());
   options.number("--cutoff", to.cutoff, "NUMBER", cutoff.c_str());
   options.choice("--order", to.order, order_names(), "NAME",
@@ -89,24 +90,38 @@ void refuse_without_gaussians(const GaussianFlags& flags) {
                            : flags.low_pass ? "--low-pass"
                            : flags.cutoff   ? "--cutoff"
                            : flags.order    ? "--order"
+                           : flags.strict   ? "--strict"
                                             : nullptr;
   if (flag != nullptr)
     meaningless(flag, "has no effect without 3-D Gaussians", "add --gaussians FILE, or leave it out");
 }
 
 std::vector<std::string> inputs_of(const GaussianFlags& flags) {
+  return flags.file ? inputs_of_gaussians(*flags.file) : std::vector<std::string>{};
+}
+
+void declare_strict(Options& options, bool& to) {
+  options.flag("--strict", to, "refuse a scene with Gaussians that cannot be drawn, instead of dropping them");
+}
+
+scene::GaussianCloud read_gaussians(const std::string& name_or_path, bool strict) {
+  scene::GaussianCloud cloud;
+  as_word(name_or_path, [&] { cloud = scene::load_gaussians(name_or_path); });
+  if (strict) scene::refuse_dropped(cloud);
+  return cloud;
+}
+
+std::vector<std::string> inputs_of_gaussians(const std::string& name_or_path) {
   std::vector<std::string> names;
-  if (!flags.file) return names;
-  for (const auto& path : scene::files_of_gaussians(*flags.file)) names.push_back(path.string());
+  for (const auto& path : scene::files_of_gaussians(name_or_path)) names.push_back(path.string());
   return names;
 }
 
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view) {
-  std::shared_ptr<const scene::GaussianCloud> cloud;
-  as_word(*flags.file, [&] { cloud = std::make_shared<scene::GaussianCloud>(scene::load_gaussians(*flags.file)); });
+  const auto cloud = std::make_shared<const scene::GaussianCloud>(read_gaussians(*flags.file, flags.strict));
   scene::GaussianDescription description = view.description;
   if (!flags.up && cloud->up) description.up = *cloud->up;
-  return scene::build_gaussian_scene(description, std::move(cloud));
+  return scene::build_gaussian_scene(description, cloud);
 }
 
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {

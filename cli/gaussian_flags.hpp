@@ -20,6 +20,7 @@ namespace fastsplat::cli {
 struct GaussianFlags {
   std::optional<std::string> file, up, order;
   std::optional<double> low_pass, cutoff;
+  bool strict = false;  ///< refuses files with Gaussians that cannot be drawn
 };
 
 void declare(Options& options, GaussianFlags& to);
@@ -38,6 +39,14 @@ GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene);
 void refuse_without_gaussians(const GaussianFlags& flags);
 /// Files that the command reads.
 std::vector<std::string> inputs_of(const GaussianFlags& flags);
+
+/// --strict.
+void declare_strict(Options& options, bool& to);
+/// Reads the file or generates the built-in scene. UserError (Usage) for unknown names, (Input) with `strict` if a
+/// Gaussian cannot be drawn.
+scene::GaussianCloud read_gaussians(const std::string& name_or_path, bool strict);
+/// A scene's file; empty for a built-in scene.
+std::vector<std::string> inputs_of_gaussians(const std::string& name_or_path);
 
 /// Reads the file or generates the built-in scene; UserError (Usage) for unknown names. Up is --up, else as the file
 /// declares.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A unit rotation as the index of its largest component and the other three, which lie within +-1/sqrt(2): the code of
-// SPZ, SOG and compressed PLY, which differ in the order of the components and in how they round.
+// A unit rotation as the index of its largest component and the other three, which lie within +-1/sqrt(2). SPZ, SOG and
+// compressed PLY store it so; they differ in the order of the components and in how they round.
 #pragma once
 
 #include <algorithm>

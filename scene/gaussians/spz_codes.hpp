@@ -35,7 +35,7 @@ inline double colour_of(std::uint32_t byte) { return (byte / 255.0 - 0.5) / kCol
 inline std::uint32_t byte_of_colour(double f_dc) { return nearest_step(255.0 * (0.5 + kColourShare * f_dc), 255.0); }
 
 inline double harmonic_of(std::uint32_t byte) { return (static_cast<double>(byte) - 128.0) / 128.0; }
-/// `bits`: those that are kept of the 8.
+/// `bits`: number of upper bits to keep of 8.
 inline std::uint32_t byte_of_harmonic(double value, unsigned bits) {
   const double bucket = 1U << (8U - bits);
   const double whole = std::round(value * 128.0) + 128.0;

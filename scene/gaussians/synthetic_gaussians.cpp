@@ -161,7 +161,8 @@ GaussianCloud make_synthetic_gaussians(const std::string& name) {
                  .fix = fmt::format("for example {}:{}", entry->name, entry->default_count)});
   }
   GaussianCloud cloud{.name = fmt::format("{}:{}", entry->name, *count),
-                      .source = fmt::format("built-in {}, {} Gaussians", entry->name, *count)};
+                      .source = fmt::format("built-in {}, {} Gaussians", entry->name, *count),
+                      .up = UpAxis::Z};
   entry->make(*count, cloud);
   return cloud;
 }

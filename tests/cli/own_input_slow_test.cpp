@@ -17,6 +17,7 @@ class OwnInput : public ::testing::Test {
     expect_success(fastsplat({"volume", "convert", "shells:8", volume_}));
     expect_success(fastsplat({"volume", "convert", "shells:8", header_}));
     expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "8", "-o", picture_, "--json", result_}));
+    expect_success(fastsplat({"gaussians", "convert", "shells:8", gaussians_}));
     folder_.write("plan.json", "{}");
     expect_success(
         fastsplat({"stream", "record", "--volume", "shells:8", "--size", "8", "--config", "tiny", "-o", stream_}));
@@ -49,6 +50,9 @@ class OwnInput : public ::testing::Test {
         {volume_, {"volume", "convert", volume_, volume_}},
         {volume_, {"volume", "convert", volume_, folder_ / "a.nii", "--json", volume_}},
         {data_, {"volume", "convert", header_, header_}},
+        {gaussians_, {"gaussians", "info", gaussians_, "--json", gaussians_}},
+        {gaussians_, {"gaussians", "convert", gaussians_, gaussians_}},
+        {gaussians_, {"gaussians", "convert", gaussians_, folder_ / "a.spz", "--json", gaussians_}},
         {volume_, {"render", "--size", "8", "--volume", volume_, "--json", volume_}},
         {config_, with(still, with(model, {"--json", config_}))},
         {tf_, with(still, {"--tf", tf_, "--json", tf_})},
@@ -115,7 +119,7 @@ class OwnInput : public ::testing::Test {
   const std::string volume_ = folder_ / "in.nrrd", header_ = folder_ / "detached.nhdr",
                     data_ = folder_ / "detached.raw.gz", picture_ = folder_ / "in.exr", stream_ = folder_ / "in.fss",
                     config_ = folder_ / "config.toml", tf_ = folder_ / "tf.toml", scene_ = folder_ / "scene.toml",
-                    result_ = folder_ / "result.json", plan_ = folder_ / "plan.json";
+                    result_ = folder_ / "result.json", gaussians_ = folder_ / "in.ply", plan_ = folder_ / "plan.json";
 };
 
 TEST_F(OwnInput, IsReplacedByNoSubcommand) {

@@ -8,6 +8,7 @@
 #include "base/lower_case.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
+#include "scene/gaussians/gltf_file.hpp"
 #include "scene/gaussians/splat_file.hpp"
 #include "scene/gaussians/spz_file.hpp"
 
@@ -18,14 +19,16 @@ struct Writer {
   const char* ending;
   std::string (*bytes)(const GaussianCloud&);
   int degree;        ///< most of the harmonics
-  bool declares;     ///< holds the vertical axis, and that colours are linear
-  bool antialiased;  ///< holds that the scene was trained anti-aliased
+  bool up;           ///< declares the vertical axis
+  bool linear;       ///< declares that colours are linear light
+  bool antialiased;  ///< declares that the scene was trained anti-aliased
 };
 std::string binary_ply(const GaussianCloud& cloud) { return ply_bytes(cloud); }
 constexpr std::array kWriters{
-    Writer{".ply", binary_ply, kMostDegree, true, true},
-    Writer{".splat", splat_bytes, 0, false, false},
-    Writer{".spz", spz_bytes, kMostDegree, false, true},
+    Writer{".ply", binary_ply, kMostDegree, true, true, true},
+    Writer{".splat", splat_bytes, 0, false, false, false},
+    Writer{".spz", spz_bytes, kMostDegree, false, false, true},
+    Writer{".glb", glb_bytes, kMostDegree, false, true, false},
 };
 
 const Writer& writer_for(const std::filesystem::path& path) {
@@ -57,9 +60,9 @@ std::vector<std::string> lost_in_gaussian_file(const GaussianCloud& cloud, const
                                writer.degree, cloud.degree));
   if (cloud.antialiased && !writer.antialiased)
     lost.push_back(fmt::format("{} cannot declare that the scene was trained anti-aliased", writer.ending));
-  if (cloud.linear && !writer.declares)
+  if (cloud.linear && !writer.linear)
     lost.push_back(fmt::format("{} cannot declare that colours are linear light", writer.ending));
-  if (cloud.up && cloud.up != UpAxis::MinusY && !writer.declares)
+  if (cloud.up && cloud.up != UpAxis::MinusY && !writer.up)
     lost.push_back(fmt::format("{} cannot declare the vertical axis {}: add --up when you draw it", writer.ending,
                                up_axis_names()[static_cast<std::size_t>(*cloud.up)]));
   return lost;

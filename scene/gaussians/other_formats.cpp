@@ -34,8 +34,6 @@ constexpr std::array kForeignFormats{
     ForeignFormat{".lcc", "an .lcc file of XGRIDS", kConvert},
     ForeignFormat{".gz", "a gzip file", "unpack it with gunzip"},
     ForeignFormat{".zip", "a zip archive", "unpack it and name the .ply inside"},
-    ForeignFormat{".glb", "a glTF file", kExport},
-    ForeignFormat{".gltf", "a glTF file", kExport},
     ForeignFormat{".usdz", "a USD file", kExport},
     ForeignFormat{".ckpt", "a trainer's checkpoint",
                   "export a .ply from it, for example with ns-export gaussian-splat"},
@@ -62,7 +60,6 @@ const char* ending_by_content(std::string_view head, const std::string& ending) 
     return std::ranges::find(kForeignFormats, ending, &ForeignFormat::ending) == kForeignFormats.end() ? ".zip"
                                                                                                        : nullptr;
   }
-  if (head.starts_with("glTF")) return ".glb";
   if (head.starts_with("{") && head.find("\"means\"") != head.npos) return ".json";
   return is_ksplat(head) ? ".ksplat" : nullptr;
 }

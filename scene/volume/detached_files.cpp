@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/file_beside.hpp"
 #include "base/lower_case.hpp"
 #include "base/number_text.hpp"
 
@@ -17,27 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFiles = 65535;
-constexpr const char* kBeside = "keep the data file beside its header";
-
-fs::path file_beside(const TextHeader& header, int line, const std::string& text) {
-  const fs::path name = text;
-  const std::string shown = text.substr(0, 120);
-  const bool upwards = std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || name.is_absolute() || upwards) {
-    header.refuse(line, "the data file must be in the header's folder", "a relative name without '..'", shown, kBeside);
-  }
-  std::error_code error;
-  const fs::path folder =
-      fs::canonical(header.path.has_parent_path() ? header.path.parent_path() : fs::path("."), error);
-  const fs::path data = error ? fs::path() : fs::weakly_canonical(folder / name, error);
-  if (error) header.refuse(line, "cannot find the data file: " + error.message(), {}, shown, kBeside);
-  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), data.begin(), data.end());
-  if (end != folder.end()) {
-    header.refuse(line, "the data file is a link to outside the header's folder", {}, shown + " -> " + data.string(),
-                  kBeside);
-  }
-  return data;
-}
 
 /// The parts of `before%05dafter`. No std::regex: it recurses per character, and a line has up to a megabyte.
 struct Numbered {
@@ -143,7 +123,7 @@ std::vector<fs::path> detached_files(const TextHeader& header, const TextHeader:
   }
   check_count(header, field, sizes, names.size());
   std::vector<fs::path> files;
-  for (const auto& name : names) files.push_back(file_beside(header, line += lines_each, name));
+  for (const auto& name : names) files.push_back(file_beside(header.path, name, header.place(line += lines_each)));
   return files;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> kEndings{".ply", ".splat", ".spz"};
+const std::vector<std::string> kEndings{".ply", ".splat", ".spz", ".glb"};
 
 TEST(GaussianFilesRun, EveryFormatIsWrittenAndDrawn) {
   const TempFolder folder;

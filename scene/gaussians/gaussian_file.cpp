@@ -11,7 +11,9 @@
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/gltf_file.hpp"
+#include "scene/gaussians/ksplat_file.hpp"
 #include "scene/gaussians/other_formats.hpp"
+#include "scene/gaussians/sog_file.hpp"
 #include "scene/gaussians/splat_file.hpp"
 #include "scene/gaussians/spz_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
@@ -25,8 +27,10 @@ struct Format {
   void (*read)(const std::string& bytes, GaussianCloud& to);
 };
 constexpr std::array kFormats{
-    Format{".ply", is_ply, read_ply},    Format{".spz", is_spz, read_spz},      Format{".glb", is_gltf, read_gltf},
-    Format{".gltf", nullptr, read_gltf}, Format{".splat", nullptr, read_splat},
+    Format{".ply", is_ply, read_ply},          Format{".spz", is_spz, read_spz},
+    Format{".glb", is_gltf, read_gltf},        Format{".gltf", nullptr, read_gltf},
+    Format{".sog", is_sog, read_sog},          Format{".json", is_sog_meta, read_sog_meta},
+    Format{".ksplat", is_ksplat, read_ksplat}, Format{".splat", nullptr, read_splat},
 };
 
 const Format* format_by_content(std::string_view head) {

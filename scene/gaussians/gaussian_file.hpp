@@ -23,13 +23,14 @@ std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or
 /// Throws UserError (Input) that names the first cause if Gaussians were dropped.
 void refuse_dropped(const GaussianCloud& cloud);
 
-/// Endings of the formats that are written: .ply, .splat, .spz, .glb.
+/// Endings of the formats that are written: .compressed.ply, .ply, .splat, .spz, .glb.
 std::vector<std::string> written_gaussian_endings();
 /// UserError (Usage) unless the ending is one of these.
 void check_gaussian_ending(const std::filesystem::path& path);
 /// What a file of this ending cannot hold of the cloud, a sentence each.
 std::vector<std::string> lost_in_gaussian_file(const GaussianCloud& cloud, const std::filesystem::path& path);
-/// The ending selects the format (ply_file.hpp, splat_file.hpp, spz_file.hpp, gltf_file.hpp). Atomic. `text`: of .ply.
+/// The ending selects the format (ply_file.hpp, ply_packed.hpp, splat_file.hpp, spz_file.hpp, gltf_file.hpp). Atomic.
+/// `text`: of .ply.
 void save_gaussians(const GaussianCloud& cloud, const std::filesystem::path& path, PlyText text = PlyText::Binary);
 
 /// Throws UserError (Input) if a number is not finite, a scale negative, or an opacity not in 0..1.

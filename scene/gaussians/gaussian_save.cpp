@@ -9,6 +9,7 @@
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
 #include "scene/gaussians/gltf_file.hpp"
+#include "scene/gaussians/ply_packed.hpp"
 #include "scene/gaussians/splat_file.hpp"
 #include "scene/gaussians/spz_file.hpp"
 
@@ -25,6 +26,7 @@ struct Writer {
 };
 std::string binary_ply(const GaussianCloud& cloud) { return ply_bytes(cloud); }
 constexpr std::array kWriters{
+    Writer{".compressed.ply", packed_ply_bytes, kMostDegree, true, true, true},
     Writer{".ply", binary_ply, kMostDegree, true, true, true},
     Writer{".splat", splat_bytes, 0, false, false, false},
     Writer{".spz", spz_bytes, kMostDegree, false, false, true},

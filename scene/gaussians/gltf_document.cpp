@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostJson = std::size_t{64} << 20;  // parsed, it takes up to ten times as much
 
-/// Base64 of RFC 4648; empty if it is none.
+/// Base64 of RFC 4648; empty for other text.
 std::string from_base64(std::string_view text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   while (text.ends_with('=')) text.remove_suffix(1);

@@ -28,9 +28,6 @@ struct ForeignFormat {
 constexpr const char* kConvert = "convert it: splat-transform {0} {1}";
 constexpr const char* kExport = "export its Gaussians as .ply";
 constexpr std::array kForeignFormats{
-    ForeignFormat{".ksplat", "a .ksplat file of GaussianSplats3D", kConvert},
-    ForeignFormat{".sog", "a .sog file, PlayCanvas' Gaussians packed in pictures", kConvert},
-    ForeignFormat{".json", "a .json file (perhaps the meta.json of an unpacked .sog)", kConvert},
     ForeignFormat{".lcc", "an .lcc file of XGRIDS", kConvert},
     ForeignFormat{".gz", "a gzip file", "unpack it with gunzip"},
     ForeignFormat{".zip", "a zip archive", "unpack it and name the .ply inside"},
@@ -41,27 +38,15 @@ constexpr std::array kForeignFormats{
     ForeignFormat{".pt", "a trainer's checkpoint", "export a .ply from it with the program that trained it"},
 };
 
-/// Whether the head is that of a .ksplat: version 0.x, sections and Gaussians within their declared maxima, level 0..2.
-bool is_ksplat(std::string_view head) {
-  constexpr std::size_t kHeader = 4096;
-  if (head.size() < kHeader || head[0] != 0 || head[1] < 1) return false;
-  const std::uint32_t most_sections = word_at(head, 4), sections = word_at(head, 8);
-  const std::uint32_t most = word_at(head, 12), count = word_at(head, 16), level = word_at(head, 20) & 0xFFFFU;
-  return sections >= 1 && sections <= most_sections && most_sections < 65536 && count >= 1 && count <= most &&
-         level <= 2;
-}
-
 /// The ending that matches a file's content, or nullptr.
 const char* ending_by_content(std::string_view head, const std::string& ending) {
   if (is_gzip(head)) return ".gz";
   if (head.starts_with("PK\x03\x04")) {
-    // A .sog archive names pictures and meta.json; other archives are recognised by their endings alone.
-    if (head.find("meta.json") != head.npos || head.find(".webp") != head.npos) return ".sog";
+    // Archives of checkpoints are recognised by their endings alone.
     return std::ranges::find(kForeignFormats, ending, &ForeignFormat::ending) == kForeignFormats.end() ? ".zip"
                                                                                                        : nullptr;
   }
-  if (head.starts_with("{") && head.find("\"means\"") != head.npos) return ".json";
-  return is_ksplat(head) ? ".ksplat" : nullptr;
+  return nullptr;
 }
 
 [[noreturn]] void refuse_format(const std::filesystem::path& path, const std::string& what, const std::string& fix) {

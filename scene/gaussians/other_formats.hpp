@@ -11,7 +11,7 @@ namespace fastsplat::scene {
 inline constexpr std::size_t kHeadBytes = 8192;
 
 /// The formats that are read, for messages.
-inline constexpr const char* kReadFormats = ".ply, .splat, .spz or glTF";
+inline constexpr const char* kReadFormats = ".ply, .splat, .spz, .sog, .ksplat or glTF";
 
 /// Throws UserError (Input) for a file of another format, with its format and a program that makes a .ply of it.
 /// `head`: the file's first kHeadBytes, or all of it; empty for a missing file.

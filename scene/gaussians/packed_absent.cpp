@@ -2,6 +2,7 @@
 // In the lab's page, instead of the readers whose libraries WebAssembly does not have.
 #include "base/error.hpp"
 #include "scene/gaussians/packed_bytes.hpp"
+#include "scene/gaussians/sog_file.hpp"
 
 namespace fastsplat::scene {
 
@@ -12,5 +13,14 @@ std::string unpack_zstd(std::string_view /*packed*/, std::size_t /*size*/, const
                .got = ".spz of version 4",
                .fix = "convert it: fastsplat gaussians convert scene.spz scene.ply"});
 }
+
+void read_sog(const std::string& /*bytes*/, GaussianCloud& to) {
+  throw_input({.where = to.source,
+               .what = "this page does not decode WebP",
+               .expected = "another format",
+               .got = "SOG",
+               .fix = "convert it: fastsplat gaussians convert scene.sog scene.ply"});
+}
+void read_sog_meta(const std::string& bytes, GaussianCloud& to) { read_sog(bytes, to); }
 
 }  // namespace fastsplat::scene

@@ -13,8 +13,6 @@
 namespace fastsplat::scene {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // Gaussians
-
 [[noreturn]] void refuse_packed(const std::string& where, const std::string& what, const std::string& expected,
                                 const std::string& got) {
   throw_input({.where = where,
@@ -85,11 +83,6 @@ glm::dvec4 rotation_of_word(std::uint32_t word) {
   return rotation_of(code);
 }
 
-/// Maps a byte to -4..4: 0 and 255 are the ends, the others the middles of 256 steps.
-double harmonic_of(double byte) {
-  return 8.0 * (byte == 0.0 ? -0.5 : byte == 255.0 ? 0.5 : (byte + 0.5) / 256.0 - 0.5);
-}
-
 int degree_of(const PlyElement* sh, const std::string& where) {
   if (sh == nullptr) return 0;
   for (int degree = 1; degree <= kMostDegree; ++degree)
@@ -123,7 +116,7 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
   if (sh != nullptr && sh->count != vertices.count)
     refuse_packed(where, "the number of sh rows differs from the number of Gaussians",
                   fmt::format("{} rows", vertices.count), fmt::format("{}", sh->count));
-  const std::uint64_t chunks_wanted = vertices.count / kChunk + (vertices.count % kChunk != 0 ? 1 : 0);
+  const std::uint64_t chunks_wanted = vertices.count / kPackedChunk + (vertices.count % kPackedChunk != 0 ? 1 : 0);
   if (header.elements[0].count != chunks_wanted)
     refuse_packed(where, "wrong number of chunks of 256 Gaussians", fmt::format("{} chunks", chunks_wanted),
                   fmt::format("{}", header.elements[0].count));
@@ -138,7 +131,7 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
   for (std::size_t i = 0; i < count; ++i) {
     rows.read(vertices, i, row);
     const auto word = [&](std::size_t which) { return static_cast<std::uint32_t>(row[at[which]]); };
-    const Chunk& chunk = chunks[i / kChunk];
+    const Chunk& chunk = chunks[i / kPackedChunk];
     const std::uint32_t colour = word(3);
     const glm::dvec3 rgb{share_of(colour, 24, 8), share_of(colour, 16, 8), share_of(colour, 8, 8)};
     gaussians[i] = {.position = chunk.position.between(shares_11_10_11(word(0))),
@@ -157,7 +150,7 @@ void read_packed(const PlyHeader& header, PlyRows& rows, const std::string& wher
     if (sh != nullptr) rows.read(*sh, i, row);
     for (std::size_t k = 1; k < each; ++k)
       for (std::size_t c = 0; c < 3; ++c)
-        harmonics[k][static_cast<int>(c)] = static_cast<float>(harmonic_of(row[c * (each - 1) + k - 1]));
+        harmonics[k][static_cast<int>(c)] = static_cast<float>(packed_harmonic(row[c * (each - 1) + k - 1]));
     drawn.add(gaussians[i], rotations[i], harmonics);
   }
   drawn.end();

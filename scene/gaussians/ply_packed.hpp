@@ -3,10 +3,30 @@
 // into four words relative to them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/ply_rows.hpp"
 
 namespace fastsplat::scene {
+
+inline constexpr std::size_t kPackedChunk = 256;  ///< Gaussians
+
+/// A byte as a harmonic of -4..4: 0 and 255 are the ends, the others the middles of 256 steps.
+inline double packed_harmonic(double byte) {
+  return 8.0 * (byte == 0.0 ? -0.5 : byte == 255.0 ? 0.5 : (byte + 0.5) / 256.0 - 0.5);
+}
+/// The byte whose step holds a harmonic.
+inline std::uint32_t packed_byte_of_harmonic(double value) {
+  return static_cast<std::uint32_t>(std::clamp(std::floor((value / 8.0 + 0.5) * 256.0), 0.0, 255.0));
+}
+
+/// A compressed file, its Gaussians in Morton order, so that those of a chunk are near each other. Harmonics are
+/// clamped to -4..4.
+std::string packed_ply_bytes(const GaussianCloud& cloud);
 
 /// Whether the vertices are packed words.
 bool is_packed(const PlyHeader& header);

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/harmonics.hpp"
+#include "scene/gaussians/morton_order.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/scene/gaussian_helper.hpp"
 
@@ -124,6 +125,52 @@ TEST(PackedPly, IsReadToWithinItsSteps) {
       EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
     }
   }
+}
+
+// Written in Morton order; read back to within the steps of the bounds of each chunk, which are those of its Gaussians.
+TEST(PackedPly, IsWrittenToWithinItsSteps) {
+  for (const char* name : {"shells:700", "cloud:700"}) {
+    GaussianCloud cloud = make_synthetic_gaussians(name);
+    cloud.antialiased = true;
+    const TestFile file(".compressed.ply", "");
+    save_gaussians(cloud, file.path());
+    const GaussianCloud read = load_gaussians(file.path());
+    EXPECT_TRUE(read.antialiased);
+    EXPECT_EQ(read.up, cloud.up);
+    GaussianCloud sorted = cloud;
+    sorted.gaussians.clear(), sorted.harmonics.clear();
+    for (const std::size_t i : morton_order(cloud)) {
+      sorted.gaussians.push_back(cloud.gaussians[i]);
+      for (const glm::vec3& harmonic : cloud.harmonics_of(i)) sorted.harmonics.push_back(harmonic);
+    }
+    const Apart off = apart(sorted, read);
+    print(std::string(name) + ", written", off);
+    std::printf("[figure] %s: bytes a Gaussian = %.1f\n", name, double(bytes_of(file.path()).size()) / 700.0);
+    // As above; chunks along the curve are smaller than the scene.
+    EXPECT_LT(off.position, 3.2 / 2046.0);
+    EXPECT_LT(off.scale, 5.0 / 2046.0);
+    EXPECT_LT(off.rotation, 1e-5);
+    EXPECT_LT(off.opacity, 0.51 / 255.0);
+    EXPECT_LT(off.colour, 0.6 / 255.0);
+    EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
+  }
+}
+
+// Neighbours of the curve are neighbours in space: steps between them add up to far less than in the order of the file.
+TEST(PackedPly, MortonOrderKeepsNeighboursTogether) {
+  const GaussianCloud cloud = make_synthetic_gaussians("cloud:3000");
+  const auto order = morton_order(cloud);
+  std::vector<bool> seen(order.size());
+  double along = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    seen[order[i]] = true;
+    if (i == 0) continue;
+    along += double(glm::distance(cloud.gaussians[order[i]].position, cloud.gaussians[order[i - 1]].position));
+    before += double(glm::distance(cloud.gaussians[i].position, cloud.gaussians[i - 1].position));
+  }
+  EXPECT_TRUE(std::ranges::all_of(seen, [](bool one) { return one; }));
+  std::printf("[figure] length along the curve = %.2f of that in the file's order\n", along / before);
+  EXPECT_LT(along, 0.3 * before);
 }
 
 TEST(PackedPly, CommentsCountAsInOthers) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of 3-D Gaussians: read or refused; Gaussians that were read are valid and read back unchanged.
+// Files of 3-D Gaussians of all formats: read or refused; Gaussians that were read are valid, and as many are in the
+// file that is written of them.
+#include <array>
+
 #include "scene/gaussians/gaussian_file.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fastsplat;
   fuzz::Bytes bytes{data, size};
-  const auto path = fuzz::file_of(bytes, fuzz::take_byte(bytes) % 2 == 0 ? ".ply" : ".splat");
+  constexpr std::array kWritten{".ply", ".compressed.ply", ".spz", ".glb"};
+  const std::uint8_t choice = fuzz::take_byte(bytes);
+  const auto path = fuzz::file_of(bytes, choice % 2 == 0 ? ".ply" : ".splat");  // other formats by their content
   fuzz::answered([&] {
     const scene::GaussianCloud cloud = scene::load_gaussians(path.string());
     const auto harmonics = static_cast<std::size_t>(scene::harmonic_count(cloud.degree));
@@ -14,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::finding("not as many colours as Gaussians");
     for (std::size_t i = 0; i < cloud.gaussians.size(); ++i)
       scene::check_gaussian(cloud.gaussians[i], cloud.harmonics_of(i), "read");
-    const std::filesystem::path again = path.string() + ".ply";
+    const std::filesystem::path again = path.string() + kWritten[choice / 2 % kWritten.size()];
     scene::save_gaussians(cloud, again);
     const scene::GaussianCloud copy = scene::load_gaussians(again.string());
     std::filesystem::remove(again);

@@ -82,7 +82,8 @@ TEST(Top, OtherWritesToControlResetNothing) {
   const auto beats = frame(3);
   const Tiles wanted = tiles_of(beats);
   std::vector<TopRun> runs;
-  for (const unsigned strobe : {0U, 1U, 7U, 14U}) runs.push_back({.harmless = 6, .strobe = strobe});
+  constexpr unsigned kAllStrobes = 15;
+  for (unsigned strobe = 0; strobe < kAllStrobes; ++strobe) runs.push_back({.harmless = 6, .strobe = strobe});
   for (const std::uint32_t word : {0U, 1U, 4U, 8U}) {
     runs.push_back({.harmless = word});
     runs.push_back({.harmless = word, .address_first = true});

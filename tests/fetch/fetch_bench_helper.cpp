@@ -165,7 +165,8 @@ class Bench {
                         (run_.stop_at > 0 && cycle_ >= run_.stop_at) ||
                         (run_.stop_after_error > 0 && out_.error != 0 && --until_stop_ == 0)))
       stopping_ = out_.stopped = true;
-    if (recovered_ && top_->error != 0) say("an error after all is as after a reset");  // M-fetch-19, step 3
+    if (recovered_ && top_->error != 0)  // M-fetch-19, step 3
+      say("error is " + std::to_string(top_->error) + " behind the recovery, expected 0");
     if (out_.error == 0 && top_->error != 0) out_.error = top_->error;
   }
 

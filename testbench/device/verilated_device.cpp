@@ -9,11 +9,25 @@
 #include "base/hash_text.hpp"
 #include "base/machine_error.hpp"
 #include "cmodel/io/register_map.hpp"
+#include "cmodel/stream/stream_rules.hpp"
 #include "testbench/device/failed_assertion.hpp"
 #include "testbench/device/tile_assembly.hpp"
+#include "testbench/device/words.hpp"
 
 namespace fastsplat::testbench {
 namespace {
+
+/// As in docs/stream.md, "Rules by number".
+const char* rule_name(cmodel::StreamRule rule) {
+  switch (rule) {
+#define X(name, number, register_name, meaning) \
+  case cmodel::StreamRule::name:                \
+    return #register_name;
+    FASTSPLAT_STREAM_RULES(X)
+#undef X
+  }
+  return "?";
+}
 
 class VerilatedDevice final : public RtlDevice {
  public:
@@ -344,17 +358,36 @@ class VerilatedDevice final : public RtlDevice {
       wrong(std::string("the register bus answers a ") + (ports_.rvalid_o ? "read" : "write") +
             " that was not requested");
     }
-    if (ports_.error_o && !refused_ && !expecting_) {
-      refused_ = true;
-      irq_known_ = false;
-      ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
-      throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
-                                             .what = "the device refused the stream",
-                                             .expected = "beats that comply with docs/stream.md",
-                                             .got = "error status (details in ERROR and ERROR_BEAT)",
-                                             .fix = "check the stream with 'fastsplat stream dump'"});
-    }
+    if (ports_.error_o && !refused_ && !expecting_) wrong_refusal();
     return taken;
+  }
+
+  /// A reader accepted the beat before it was offered, so the device is wrong.
+  [[noreturn]] void wrong_refusal() {
+    refused_ = true;
+    irq_known_ = false;
+    ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
+    const std::string got = reading_ || writing_ ? "STATUS bit 1" : error_registers();
+    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
+                                           .what = "the device refused a legal beat",
+                                           .expected = "ERROR 0",
+                                           .got = got,
+                                           .fix = "compare the beat with 'fastsplat stream dump', then look at "
+                                                  "u_top.u_beats and u_top.u_core.u_check in the waveform"});
+  }
+
+  /// ERROR and ERROR_BEAT as text. What the device shows while they are read is not the run's, nor are the cycles.
+  std::string error_registers() {
+    const std::uint64_t now = cycle_;
+    RawTapSink* const taps = std::exchange(options_.taps, nullptr);
+    const bool before = std::exchange(expecting_, true);
+    const std::uint32_t error = read(cmodel::kRegError.address), beat = read(cmodel::kRegErrorBeat.address);
+    options_.taps = taps;
+    expecting_ = before;
+    cycle_ = now;
+    const std::uint32_t rule = error & 0xff;
+    return "rule " + std::to_string(rule) + " (" + rule_name(static_cast<cmodel::StreamRule>(rule)) + "), opcode " +
+           hex(error >> 8 & 0xff) + ", beat " + std::to_string(beat);
   }
 
   void accept(const cmodel::Beat& beat) {

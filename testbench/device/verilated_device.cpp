@@ -73,7 +73,7 @@ class VerilatedDevice final : public RtlDevice {
     // A few cycles more: pipelines behind the last busy cycle deliver their taps.
     for (int i = 0; i < 16; ++i) cycle();
     if (irq_known_ && frames_ > 0 && (read(cmodel::kRegIrq.address) & cmodel::kIrqFrame) == 0)
-      wrong("the frame has left, and IRQ bit 0 is 0", "1, as docs/integration.md says");
+      wrong_status("the frame has left, and IRQ bit 0 is 0", "1, as docs/integration.md says");
   }
 
   std::optional<Refusal> refuse(const cmodel::Beat& beat) override {
@@ -242,9 +242,10 @@ class VerilatedDevice final : public RtlDevice {
       if (hangs(since)) time_out("the device does not become idle");
       if (!irq_known_ || frames_ != 1 || tiles_.complete()) continue;
       if ((read(cmodel::kRegIrq.address) & cmodel::kIrqFrame) != 0 && !tiles_.complete())
-        wrong("IRQ bit 0 is 1, and pixels of the frame wait", "0 until the sink has taken them");
+        wrong_status("IRQ bit 0 is 1, and pixels of the frame wait", "0 until the sink has taken them");
     }
-    if (!tiles_.complete()) wrong("BUSY is 0, and the sink has not taken all pixels", "1 until it has taken them");
+    if (!tiles_.complete())
+      wrong_status("BUSY is 0, and the sink has not taken all pixels", "1 until it has taken them");
   }
 
   /// True if neither stream has moved for the timeout, counted from `since` at the earliest: a sink may be slow.
@@ -368,12 +369,9 @@ class VerilatedDevice final : public RtlDevice {
     irq_known_ = false;
     ports_.arvalid_i = ports_.awvalid_i = ports_.wvalid_i = 0;
     const std::string got = reading_ || writing_ ? "STATUS bit 1" : error_registers();
-    throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_),
-                                           .what = "the device refused a legal beat",
-                                           .expected = "ERROR 0",
-                                           .got = got,
-                                           .fix = "compare the beat with 'fastsplat stream dump', then look at "
-                                                  "u_top.u_beats and u_top.u_core.u_check in the waveform"});
+    wrong("the device refused a legal beat", "ERROR 0", got, 0,
+          "compare the beat with 'fastsplat stream dump', then look at u_top.u_beats and u_top.u_core.u_check in the "
+          "waveform");
   }
 
   /// ERROR and ERROR_BEAT as text. What the device shows while they are read is not the run's, nor are the cycles.
@@ -481,12 +479,16 @@ class VerilatedDevice final : public RtlDevice {
   }
 
   [[noreturn]] void wrong(const std::string& what, const std::string& expected = {}, const std::string& got = {},
-                          std::uint64_t before = 0) const {
+                          std::uint64_t before = 0, const char* fix = "check the waveform of the last cycles") const {
     throw UserError(ExitCode::Simulation, {.where = "cycle " + std::to_string(cycle_ - before),
                                            .what = what,
                                            .expected = expected,
                                            .got = got,
-                                           .fix = "check the waveform of the last cycles"});
+                                           .fix = fix});
+  }
+  /// Of BUSY or IRQ bit 0 at a frame's end.
+  [[noreturn]] void wrong_status(const std::string& what, const std::string& expected) const {
+    wrong(what, expected, {}, 0, "look at u_top.ends_q, u_top.frame_end and u_top.u_core.u_csr in the waveform");
   }
   [[noreturn]] void unanswered(const std::string& access) const {
     wrong("no response to a register " + access, "reads: two cycles after acceptance, writes: one");

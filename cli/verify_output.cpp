@@ -158,6 +158,7 @@ std::string to_text(const Failure& failure) {
                      report.shrink.finished ? "" : " (a smaller one may exist)") +
          "smallest stream: " + report.divergence + "\n" +
          (report.operands.empty() ? "" : "  " + report.operands + "\n") +
+         (report.stopped_by.empty() ? "" : "  then " + report.stopped_by + "\n") +
          (report.place ? fmt::format("look at: {} ({})\n", report.place->instance, report.place->module) : "") +
          (failure.waveform.empty()
               ? ""

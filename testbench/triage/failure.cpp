@@ -96,6 +96,7 @@ FailureReport investigate(const BeatSource& source, const VerifyOptions& options
   last.timeout = trial.timeout;
   const VerifyResult smallest = verify(source_of(beats), last);
   report.divergence = first_divergence(smallest, options.config);
+  if (smallest.check.mismatches > 0) report.stopped_by = smallest.error;
   const auto& diverged = smallest.check.first;
   if (diverged) {
     report.operands = explain(source_of(beats), options.config, *diverged);

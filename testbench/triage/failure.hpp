@@ -25,6 +25,8 @@ struct FailureReport {
   std::string no_waveform;                   ///< why the requested waveform is missing
   VerifyOptions options;                     ///< of the replay: they fail with the small stream
   StreamDocument document;
+  /// What ended the run behind a mismatch, such as an assertion that failed; empty: nothing.
+  std::string stopped_by;
 };
 
 /// The first difference of a run that failed, as text: stage, place, both values; or the device's behaviour.

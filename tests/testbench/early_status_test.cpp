@@ -13,6 +13,7 @@
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/testbench/forwarding_top_helper.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -22,24 +23,16 @@ using namespace testbench;
 enum class Lie { None, IdleTooEarly, FrameTooEarly, FrameNever };
 
 /// The RTL of `tiny` whose answers to reads of STATUS or IRQ are wrong.
-class LyingTop final : public SimulatedTop {
+class LyingTop final : public ForwardingTop {
  public:
-  LyingTop(std::unique_ptr<SimulatedTop> top, Lie lie) : top_(std::move(top)), ports_(top_->ports()), lie_(lie) {}
-  void eval() override {
-    const bool rises = ports_.clk_i != 0 && !was_high_;
-    was_high_ = ports_.clk_i != 0;
+  LyingTop(std::unique_ptr<SimulatedTop> top, Lie lie) : ForwardingTop(std::move(top)), lie_(lie) {}
+
+ private:
+  void eval(bool rises) override {
     if (rises && ports_.arvalid_i != 0 && ports_.arready_o != 0) address_ = ports_.araddr_i.value();
     top_->eval();
     if (rises && ports_.rvalid_o != 0) ports_.rdata_o.drive(answer(ports_.rdata_o.value()));
   }
-  Ports ports() override { return ports_; }
-  bool failed() const override { return top_->failed(); }
-  std::string take_output() override { return top_->take_output(); }
-  bool trace(const char* path) override { return top_->trace(path); }
-  void dump(std::uint64_t time) override { top_->dump(time); }
-  void write_coverage(const char* path) override { top_->write_coverage(path); }
-
- private:
   std::uint32_t answer(std::uint32_t word) const {
     if (lie_ == Lie::IdleTooEarly && address_ == cmodel::kRegStatus.address) return word & ~cmodel::kStatusBusy;
     if (lie_ == Lie::FrameTooEarly && address_ == cmodel::kRegIrq.address) return word | cmodel::kIrqFrame;
@@ -47,11 +40,8 @@ class LyingTop final : public SimulatedTop {
     return word;
   }
 
-  std::unique_ptr<SimulatedTop> top_;
-  Ports ports_;
   Lie lie_;
   std::uint32_t address_ = 0;
-  bool was_high_ = false;
 };
 
 VerifyResult verify_with(Lie lie, const char* ready) {

@@ -10,6 +10,7 @@
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
 #include "tests/cmodel/stream_writer_helper.hpp"
+#include "tests/testbench/forwarding_top_helper.hpp"
 
 namespace fastsplat::test {
 namespace {
@@ -19,30 +20,20 @@ using namespace testbench;
 constexpr std::uint32_t kFlipped = 0x80;  ///< of the opcode: no record has it
 
 /// The RTL of `tiny`, which sees one beat with another opcode.
-class DamagedBeat final : public SimulatedTop {
+class DamagedBeat final : public ForwardingTop {
  public:
-  DamagedBeat(std::unique_ptr<SimulatedTop> top, int beat) : top_(std::move(top)), ports_(top_->ports()), beat_(beat) {}
-  void eval() override {
-    const bool rises = ports_.clk_i != 0 && !was_high_;
-    was_high_ = ports_.clk_i != 0;
+  DamagedBeat(std::unique_ptr<SimulatedTop> top, int beat) : ForwardingTop(std::move(top)), beat_(beat) {}
+
+ private:
+  void eval(bool rises) override {
     const bool taken = rises && ports_.rst_ni != 0 && ports_.s_tvalid_i != 0 && ports_.s_tready_o != 0;
     const bool damaged = taken && taken_++ == beat_;
     if (damaged) ports_.s_tdata_i.data()[0] ^= kFlipped;
     top_->eval();
     if (damaged) ports_.s_tdata_i.data()[0] ^= kFlipped;
   }
-  Ports ports() override { return ports_; }
-  bool failed() const override { return top_->failed(); }
-  std::string take_output() override { return top_->take_output(); }
-  bool trace(const char* path) override { return top_->trace(path); }
-  void dump(std::uint64_t time) override { top_->dump(time); }
-  void write_coverage(const char* path) override { top_->write_coverage(path); }
 
- private:
-  std::unique_ptr<SimulatedTop> top_;
-  Ports ports_;
   int beat_, taken_ = 0;
-  bool was_high_ = false;
 };
 
 TEST(WrongRefusal, NamesRuleOpcodeAndBeat) {

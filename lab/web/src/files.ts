@@ -19,7 +19,8 @@ function safe(name: string): string {
 const is_text = /\.toml$/i;
 /** Raw data that a header in another file names. */
 const is_data = /\.(raw|zraw|img|bin)$/i;
-const is_gaussians = /\.(ply|splat)$/i;
+/** The engine reads all of them but `.sog`, which it names. */
+const is_gaussians = /\.(ply|splat|spz|glb|ksplat|sog)$/i;
 const is_volume = /\.(nii|nrrd|nhdr|mha|mhd|hdr|raw|zraw|img|bin|gz)$/i;
 
 /** Reads dropped files. Throws an Error with one line about the first that cannot be used. */
@@ -37,7 +38,7 @@ export async function taken(files: File[], most_bytes: number): Promise<Taken> {
     } else if (is_volume.test(file.name) || is_gaussians.test(file.name)) {
       result.volumes.push({ name: safe(file.name), blob: file });
     } else {
-      throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz), 3-D Gaussians (.ply, .splat) or a .toml file`);
+      throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz), 3-D Gaussians (.ply, .splat, .spz, .glb, .ksplat) or a .toml file`);
     }
   }
   result.volumes.sort((a, b) => Number(is_data.test(a.name)) - Number(is_data.test(b.name)));

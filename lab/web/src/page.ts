@@ -116,7 +116,7 @@ export class Page {
         h("section", { class: "box", "aria-labelledby": "command-title" }, h("h2", { id: "command-title" }, "The same picture by the program"), this.command, h("button", { type: "button", id: "copy-command", click: async () => say((await copy(this.command.textContent ?? "")) ? "Command copied" : "The browser does not let this page copy") }, "Copy the command")),
       ),
     );
-    document.getElementById("foot")?.append(h("p", {}, `fastsplat ${this.tables.version}. The device runs in this page, bit for bit; nothing leaves it. Drop a volume (NIfTI, NRRD, MetaImage), 3-D Gaussians (.ply, .splat), a transfer function or a configuration (TOML) anywhere.`));
+    document.getElementById("foot")?.append(h("p", {}, `fastsplat ${this.tables.version}. The device runs in this page, bit for bit; nothing leaves it. Drop a volume (NIfTI, NRRD, MetaImage), 3-D Gaussians (.ply, .splat, .spz, .glb, .ksplat), a transfer function or a configuration (TOML) anywhere.`));
   }
 
   begin(): void {

@@ -70,7 +70,7 @@ export class ScenePanel {
       "section",
       { class: "box", id: "scene", "aria-labelledby": "scene-title" },
       h("h2", { id: "scene-title", class: "off" }, "Scene"),
-      row("Volume or Gaussians", "volume", this.volume, h("button", { type: "button", title: "NIfTI, NRRD, MetaImage, .ply or .splat; or drop a file on the page", click: open_file }, "Open\u2026")),
+      row("Volume or Gaussians", "volume", this.volume, h("button", { type: "button", title: "NIfTI, NRRD, MetaImage, .ply, .splat, .spz, .glb or .ksplat; or drop a file on the page", click: open_file }, "Open\u2026")),
       row("Transfer function", "tf", this.tf, this.edit),
       ...named("method"),
       ...named("camera.projection"),

@@ -115,8 +115,8 @@ void declare(Options& options, PixelArguments& to) {
   options.example("fastsplat pixel 32,20 --volume shells:32 --size 64 --config base",
                   "the pixel sheet by sheet, and the splats of its worst sheet");
   options.example("fastsplat pixel 48,40 --gaussians shells:500 --size 96", "Gaussian by Gaussian");
-  options.example("fastsplat pixel 3,0 --tile 0 --stream fail.fss --config tiny",
-                  "the words behind a mismatch that `verify` reported");
+  options.example("fastsplat pixel 3,0 --tile 0 --stream shells.fss --config tiny",
+                  "the device's words, as behind a mismatch that `verify` reports");
 }
 
 }  // namespace

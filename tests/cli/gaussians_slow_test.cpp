@@ -147,7 +147,7 @@ TEST(GaussiansRun, DamagedFilesAreExit3) {
   refused("empty.ply", "", {"empty.ply", "empty"});
   refused("cut.splat", splat.substr(0, 77), {"cut.splat", "multiple of 32"});
   refused("nan.splat", std::string(64, '\xff'), {"nan.splat", "none of the 2 Gaussians", "x is not finite"});
-  refused("packed.spz", "NGSP", {"packed.spz", ".spz file", "splat-transform"});
+  refused("packed.spz", "NGSP", {"packed.spz", ".spz file is truncated", "got 4"});
   std::string missing = ply;
   missing.replace(missing.find("property float opacity"), 22, "property float opacitx");
   refused("missing.ply", missing, {"missing.ply", "opacity is missing"});

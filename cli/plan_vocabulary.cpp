@@ -2,6 +2,7 @@
 #include "cli/plan_vocabulary.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -25,12 +26,40 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
 
+/// What changes when a file is written or replaced.
+struct Version {
+  ino_t file = 0;
+  off_t bytes = 0;
+  timespec written{};
+  bool operator==(const Version& other) const {
+    return file == other.file && bytes == other.bytes && written.tv_sec == other.written.tv_sec &&
+           written.tv_nsec == other.written.tv_nsec;
+  }
+};
+
+Version version_of(const fs::path& path) {
+  struct stat now {};
+  if (::stat(path.c_str(), &now) != 0) return {};
+  return {now.st_ino, now.st_size, now.st_mtim};
+}
+
+struct HashedFile {
+  Version version;
+  std::string hash;
+};
+std::map<fs::path, HashedFile>& hashed_files() {
+  static std::map<fs::path, HashedFile> known;
+  return known;
+}
+
 /// The hash of a file's bytes; each file is read once.
 std::string hash_of_file(const fs::path& path) {
-  static std::map<fs::path, std::string> known;
-  auto& hash = known[path];
-  if (hash.empty()) hash = hash_text(fnv1a(kFnv1aStart, read_text_file(path, kMostBytes)));
-  return hash;
+  HashedFile& file = hashed_files()[path];
+  if (file.hash.empty()) {
+    file.version = version_of(path);
+    file.hash = hash_text(fnv1a(kFnv1aStart, read_text_file(path, kMostBytes)));
+  }
+  return file.hash;
 }
 
 bool is_file(const fs::path& path) {
@@ -178,6 +207,12 @@ void require_content(const plan::Plan& plan, const std::string& plan_file) {
          .got = {},
          .fix = "run it in the folder where the plan was made, or make the plan again with `fastsplat plan make`"});
   }
+}
+
+std::string changed_file() {
+  for (const auto& [path, file] : hashed_files())
+    if (!(version_of(path) == file.version)) return path.string();
+  return {};
 }
 
 std::string program_hash() {

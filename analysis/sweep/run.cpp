@@ -178,6 +178,11 @@ class Runner {
     const Step& step = going.one->steps[going.step];
     going.cpu_seconds += ended.cpu_seconds;
     Outcome outcome = outcome_of(step, ended, {.folder = going.folder, .shared = options_.results / kSharedFolder});
+    if (const std::string why = options_.changed ? options_.changed() : ""; !why.empty()) {
+      outcome.status = Status::Error;
+      outcome.accident = true;
+      outcome.message = why;
+    }
     if (!step.shared.empty()) {
       making_.erase(step.shared);
       if (outcome.status == Status::Pass) {

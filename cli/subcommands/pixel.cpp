@@ -63,9 +63,11 @@ ExitCode run_stream(const PixelArguments& arguments, const glm::ivec2& at, const
                  .others = {arguments.common.json},
                  .inputs = joined(inputs_of_config(arguments.of.config.config.value_or("")), {*arguments.stream})});
   const testbench::TilePixel asked{static_cast<std::uint32_t>(arguments.tile.value_or(0)), at.x, at.y};
-  const auto words =
-      testbench::words_of_pixel([&](const cmodel::BeatSink& sink) { driver::read_beats(*arguments.stream, sink); },
-                                config, asked, !arguments.tile.has_value());
+  testbench::PixelWords words;
+  const auto source = [&](const cmodel::BeatSink& sink) { driver::read_beats(*arguments.stream, sink); };
+  driver::naming(*arguments.stream, [&] {
+    words = testbench::words_of_pixel(source, config, asked, !arguments.tile, cmodel::StreamScope::Whole);
+  });
   output.line(errors_heading(*arguments.stream, config) + testbench::to_text(words));
   auto json = errors_identity("pixel", *arguments.stream, config);
   json.update(testbench::to_json(words));

@@ -123,6 +123,11 @@ ExitCode run(const PlanRunArguments& arguments) {
                    if (result.status != plan::Status::Pass)
                      output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
                  },
+             .changed =
+                 [] {
+                   const std::string file = changed_file();
+                   return file.empty() ? "" : file + ": changed while the plan ran; restore it or make the plan again";
+                 },
              .unharmed = [&](const plan::Case& one) { shared.done(one); },
              .accident =
                  [&](const plan::Case& one, const std::string& message) {

@@ -102,7 +102,8 @@ float GltfNumbers::at(std::size_t element, std::size_t number) const {
   }
 }
 
-GltfDocument::GltfDocument(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
+GltfDocument::GltfDocument(std::string_view bytes, std::filesystem::path path)
+    : path_(std::move(path)), bytes_(bytes.size()) {
   std::string_view text = bytes;
   if (bytes.starts_with("glTF")) {
     constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
@@ -218,6 +219,12 @@ GltfNumbers GltfDocument::numbers(std::size_t accessor, std::size_t width, const
   if (out.count > whole)
     refuse(what + " lies outside its buffer", fmt::format("{} elements", out.count), fmt::format("{}", whole));
   return out;
+}
+
+std::size_t GltfDocument::size() const {
+  std::size_t all = bytes_;
+  for (const auto& [index, buffer] : loaded_) all += buffer.size();
+  return all;
 }
 
 }  // namespace fastsplat::scene

@@ -29,6 +29,7 @@ class GltfDocument {
   GltfDocument(std::string_view bytes, std::filesystem::path path);
 
   const nlohmann::json& json() const { return json_; }
+  std::size_t size() const;  ///< bytes of the file and of the buffers read from elsewhere
   /// An element of the array `list` at the top.
   const nlohmann::json& item(const char* list, std::size_t index) const;
   /// A whole number, not negative, that `of` holds; `what` names it in messages.
@@ -45,6 +46,7 @@ class GltfDocument {
   std::string_view buffer(std::size_t index);
 
   std::filesystem::path path_;
+  std::size_t bytes_;
   nlohmann::json json_;
   std::string_view binary_;                      ///< of a .glb
   std::map<std::size_t, std::string> loaded_{};  ///< buffers from elsewhere

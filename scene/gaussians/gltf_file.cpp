@@ -12,6 +12,7 @@
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/gltf_document.hpp"
 #include "scene/gaussians/harmonic_rotation.hpp"
+#include "scene/gaussians/packed_bytes.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -232,6 +233,9 @@ void Gltf::read() {
     to_.degree = std::max(to_.degree, splats.degree());
     count += splats.position.count;
   }
+  // Nodes may share a mesh.
+  check_growth(count * (sizeof(Gaussian) + sizeof(glm::vec3) * static_cast<std::size_t>(harmonic_count(to_.degree))),
+               file_.size(), to_.source);
   if (count == 0)
     file_.refuse("the glTF file holds no 3-D Gaussians", std::string("a primitive with ") + kExtension,
                  fmt::format("{} others", others_), "export the Gaussians, not meshes or points");

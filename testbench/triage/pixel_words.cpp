@@ -19,13 +19,13 @@ namespace {
 /// Follows the pixel through records and taps.
 class Follow final : public cmodel::TapSink {
  public:
-  Follow(const cmodel::Config& config, const TilePixel& at, bool in_picture)
+  Follow(const cmodel::Config& config, const TilePixel& at, bool in_picture, cmodel::StreamScope scope)
       : config_(config),
         in_picture_(in_picture),
         asked_(at),
-        decode_(config, cmodel::StreamScope::Subset),
+        decode_(config, scope),
         lane_(config),
-        model_(config, cmodel::StreamScope::Subset, nowhere_, this) {
+        model_(config, scope, nowhere_, this) {
     words_.at = at;
   }
 
@@ -37,6 +37,7 @@ class Follow final : public cmodel::TapSink {
   }
 
   PixelWords finish() {
+    model_.finish();
     if (found_) return std::move(words_);
     throw_usage({.where = "pixel",
                  .what = in_picture_ ? "outside the picture" : "outside the stream's tiles",
@@ -145,9 +146,9 @@ std::optional<TilePixel> pixel_of(const cmodel::Config& config, const Divergence
   return TilePixel{at.tile, at.x + lane % config.lanes, at.y + lane / config.lanes};
 }
 
-PixelWords words_of_pixel(const BeatSource& source, const cmodel::Config& config, const TilePixel& at,
-                          bool in_picture) {
-  Follow follow(config, at, in_picture);
+PixelWords words_of_pixel(const BeatSource& source, const cmodel::Config& config, const TilePixel& at, bool in_picture,
+                          cmodel::StreamScope scope) {
+  Follow follow(config, at, in_picture, scope);
   source([&](std::span<const cmodel::Beat> beats) { follow.feed(beats); });
   return follow.finish();
 }

@@ -43,9 +43,11 @@ struct PixelWords {
   FourWords out{};
 };
 
-/// Feeds the model with the stream. `at`: in the picture if `in_picture`, else in its tile. Throws UserError (Usage) if
-/// no tile has the pixel, and for tiles of densities, whose pixels depend on their neighbours.
-PixelWords words_of_pixel(const BeatSource& source, const cmodel::Config& config, const TilePixel& at, bool in_picture);
+/// Feeds the model with the stream, whose end `scope` decides. `at`: in the picture if `in_picture`, else in its tile.
+/// Throws as the model does, and UserError (Usage) if no tile has the pixel, and for tiles of densities, whose pixels
+/// depend on their neighbours.
+PixelWords words_of_pixel(const BeatSource& source, const cmodel::Config& config, const TilePixel& at, bool in_picture,
+                          cmodel::StreamScope scope = cmodel::StreamScope::Subset);
 
 std::string to_text(const PixelWords& words);
 nlohmann::ordered_json to_json(const PixelWords& words);

@@ -64,6 +64,12 @@ TEST_F(VerifyFailure, IsFollowedThroughTheModel) {
   const std::string word = smallest.substr(begin, end - begin);
   std::printf("[figure] %s: %s\n", failure.at("follow").get<std::string>().c_str(), word.c_str());
   EXPECT_NE(followed.out.find(" " + word + " "), std::string::npos) << smallest << "\n" << followed.out;
+  const std::string stream = read_bytes(folder_ / "verify-failure.fss");
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, stream.size() - 32}) {
+    folder_.write("verify-failure.fss", stream.substr(0, bytes));
+    expect_error(fastsplat(words, here_), 3, {"verify-failure.fss"});
+  }
+  folder_.write("verify-failure.fss", stream);
   words.insert(words.end(), {"--volume", "shells:8"});
   expect_error(fastsplat(words, here_), 2, {"--stream"});
 }

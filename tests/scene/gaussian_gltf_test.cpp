@@ -217,6 +217,15 @@ TEST(Gltf, WhatIsDeclaredIsFollowedOrNamed) {
                           HasSubstr("1 primitives")));
 }
 
+TEST(Gltf, ManyNodesWithOneMeshAreRefusedBeforeTheyFillMemory) {
+  Chunks chunks = written(make_synthetic_gaussians("cloud:400"));
+  for (int node = 1; node < 20000; ++node) {
+    chunks.json["nodes"].push_back({{"mesh", 0}});
+    chunks.json["scenes"][0]["nodes"].push_back(node);
+  }
+  EXPECT_THAT(refusal_of(".glb", glb(chunks)), HasSubstr("at most 256 times"));
+}
+
 TEST(Gltf, DamageIsNamed) {
   const Chunks whole = written(make_synthetic_gaussians("cloud:30"));
   const auto changed = [&](const std::function<void(Json&)>& change) {

@@ -277,6 +277,40 @@ azimuth = [0, 30, 60]
   EXPECT_EQ(compared, 144u);
 }
 
+/// A volume that is written over while the plan runs gives no result under the content that the plan names.
+TEST(PlanProgram, AVolumeThatChangesMeanwhileGivesNoResult) {
+  const TempFolder folder;
+  const std::string volume = folder / "v.nrrd", plan = folder / "plan.json", results = folder / "plan.results";
+  expect_success(fastsplat({"volume", "convert", "shells:16", volume}));
+  const std::string whole = read_bytes(volume);
+  const std::string spec =
+      folder.write("spec.toml",
+                   "kind = \"compare\"\n[constants]\nvolume = \"v.nrrd\"\nsize = 24\n[axes]\nazimuth = [0, 10, 20]\n"
+                   "sheet.frac_bits = [8, 9, 10, 11, 12, 13, 14, 15]\n");
+  expect_success(fastsplat({"plan", "make", spec, "-o", plan}));
+  expect_success(fastsplat({"plan", "run", plan, "--results", folder / "undisturbed"}));
+  Surroundings meddling;
+  bool changed = false;
+  meddling.when = [&](pid_t) {
+    if (!changed && results_in(results) >= 2) {
+      folder.write("v.nrrd", whole.substr(0, whole.size() / 2));
+      changed = true;
+    }
+    return false;
+  };
+  meddling.signal = SIGUSR1;  // never sent
+  const auto run = fastsplat({"plan", "run", plan, "--jobs", "1"}, meddling);
+  const std::size_t before = results_in(results);
+  std::printf("[figure] results of 24 before the volume changed = %zu (limit 2..23)\n", before);
+  EXPECT_TRUE(changed);
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("v.nrrd: changed while the plan ran"));
+  EXPECT_LT(before, 24u);
+  folder.write("v.nrrd", whole);
+  expect_success(fastsplat({"plan", "run", plan, "--jobs", "2"}));
+  EXPECT_EQ(merged(plan, results), merged(plan, folder / "undisturbed"));
+}
+
 TEST(PlanProgram, ARowsCommandMakesItAgain) {
   const TempFolder folder;
   const std::string spec = folder.write(

@@ -143,8 +143,19 @@ ConfigFlags for_gaussians(ConfigFlags flags) {
   return flags;
 }
 
-driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads) {
-  return {scene, scene::project_all(scene, nullptr, threads), config, threads};
+std::vector<Remark> remarks(const scene::ProjectionReport& projection) {
+  if (projection.degenerate == 0) return {};
+  return {{Remark::Warning,
+           fmt::format("{} left out: too long and thin for the precision of doubles; use a smaller --zoom",
+                       counted(projection.degenerate, "Gaussian"))}};
+}
+
+driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads,
+                              const Output& output) {
+  scene::ProjectionReport projection;
+  const auto projected = scene::project_all(scene, &projection, threads);
+  output.remark(remarks(projection));
+  return {scene, projected, config, threads};
 }
 
 std::string summary(const scene::GaussianScene& scene) {

@@ -74,8 +74,8 @@ struct Result {
 
 std::string to_text(const scene::ProjectionReport& projection) {
   return fmt::format("projection: {} drawn, {} behind the near plane, {} outside the picture\n",
-                     grouped(projection.gaussians - projection.near - projection.outside), grouped(projection.near),
-                     grouped(projection.outside));
+                     grouped(projection.gaussians - projection.near - projection.outside - projection.degenerate),
+                     grouped(projection.near), grouped(projection.outside));
 }
 
 std::string to_text(const GoldenGaussians& golden) {
@@ -101,7 +101,10 @@ std::string to_text(const DeviceGaussians& device) {
 }
 
 Json to_json(const scene::ProjectionReport& projection) {
-  return {{"gaussians", projection.gaussians}, {"near", projection.near}, {"outside", projection.outside}};
+  return {{"gaussians", projection.gaussians},
+          {"near", projection.near},
+          {"outside", projection.outside},
+          {"degenerate", projection.degenerate}};
 }
 
 Json to_json(const GoldenGaussians& golden) {
@@ -116,8 +119,8 @@ Json to_json(const DeviceGaussians& device) {
   }
   json["driver"] = {{"drawn", device.report.drawn},         {"vanished", device.report.vanished},
                     {"saturated", device.report.saturated}, {"cut", device.report.cut},
-                    {"in_tiles", device.report.in_tiles},   {"records", device.report.records},
-                    {"tiles", device.report.tiles}};
+                    {"thin", device.report.thin},           {"in_tiles", device.report.in_tiles},
+                    {"records", device.report.records},     {"tiles", device.report.tiles}};
   if (device.units.fast + device.units.plain > 0) json["units"] = cli::to_json(device.units);
   auto& counts = json["counters"];
   device.counters.for_each(
@@ -162,6 +165,12 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
          fmt::format(
              "{} Gaussians exceed the reach of an ellipse record and were clipped; use a smaller --size or --zoom",
              grouped(report.cut))});
+  }
+  if (report.thin > 0) {
+    said.push_back({Remark::Warning,
+                    fmt::format("{} Gaussians are so long and thin that an ellipse's words do not hold their shape; "
+                                "`fastsplat errors` says what that costs, under step radius",
+                                grouped(report.thin))});
   }
   if (report.saturated > 0) {
     said.push_back(
@@ -255,6 +264,7 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   if (config) frame.emplace(scene, projected, *config, arguments.common.threads);
   output.line(summary(scene));
   output.remark(remarks(*scene.cloud));
+  output.remark(remarks(projection));
   const auto shown = [&](const Image& image) { return shown_of(image, view.shown.display, scene.cloud->linear); };
   if (frame) {
     driver::GaussianRender render;

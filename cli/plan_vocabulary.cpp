@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 34;
 
-/// What changes when a file is written or replaced.
+/// Differs once a file was written or replaced.
 struct Version {
   ino_t file = 0;
   off_t bytes = 0;
@@ -145,6 +145,7 @@ std::string config_hash(const plan::Settings& settings) {
   }
   static std::map<std::string, cmodel::Config> known;  // each file is read once
   const std::string name = flags.config.value_or("base");
+  if (is_file(name)) hash_of_file(name);  // for changed_file()
   if (!known.contains(name)) known[name] = load(name, {});
   return hash_text(cmodel::config_hash(driver::changed(known.at(name), flags.changes)));
 }
@@ -193,6 +194,7 @@ plan::Vocabulary plan_vocabulary() {
 
 scene::SceneDescription scene_of(const plan::Settings& settings) {
   parse_words(scene_words(settings), scene_render());
+  if (const auto& file = scene_flags().file; file && is_file(*file)) hash_of_file(*file);  // for changed_file()
   return describe(scene_flags());
 }
 

@@ -18,7 +18,7 @@ scene::SceneDescription scene_of(const plan::Settings& settings);
 /// or another program. The error asks to make `plan_file` again.
 void require_content(const plan::Plan& plan, const std::string& plan_file);
 
-/// A file of the plans checked so far that is no longer as it was read for its hash; empty if there is none.
+/// An input that has changed since this process read it for the plan's hashes; empty if none has.
 std::string changed_file();
 
 /// Hash of the running program and its image library, so that results of different programs are never mixed.

@@ -28,8 +28,12 @@ int columns() {
 ProgressBar::ProgressBar(std::string label, Watching watching, Clock::time_point start)
     : label_(std::move(label)), visible_(watching == Watching::IfTerminal && stderr_is_terminal()), start_(start) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { erase(); }
+
+void ProgressBar::erase() {
+  const std::scoped_lock lock(mutex_);
   if (drawn_) put("\r\033[K");
+  drawn_ = false;
 }
 
 Progress ProgressBar::callback() {

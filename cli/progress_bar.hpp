@@ -26,6 +26,8 @@ class ProgressBar {
 
   /// Progress callback; empty if the bar is not shown. Must not outlive the bar.
   Progress callback();
+  /// Erases the line, for a message; the next progress draws it again.
+  void erase();
 
  private:
   void show(std::size_t done, std::size_t total);

@@ -27,10 +27,20 @@ void prepare_rtl(const cmodel::Config& config, const std::vector<testbench::RtlA
   testbench::require_rtl(config, abilities, otherwise);
 }
 
-driver::DeviceFrame render_rtl(const cmodel::BeatSource& source, const driver::TileGrid& grid,
-                               const cmodel::Config& config, Checking checking, std::optional<RtlRun>& run) {
-  testbench::RtlDevice* rtl = nullptr;
-  const auto device = [&](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
+namespace {
+
+/// A device for run_device(), and what to read from it at the end.
+struct Simulation {
+  driver::DeviceFactory make;
+  std::function<void(cmodel::Device&)> finished;
+};
+
+Simulation simulation(const cmodel::Config& config, Checking checking, std::optional<RtlRun>& run) {
+  const auto rtl = std::make_shared<testbench::RtlDevice*>();
+  run.emplace();
+  run->config = config;
+  Simulation out;
+  out.make = [&config, checking, rtl](cmodel::PixelSink& pixels) -> std::unique_ptr<cmodel::Device> {
     if (checking == Checking::EveryTap) {
       auto checked = std::make_unique<testbench::CheckedDevice>(
           config, cmodel::StreamScope::Subset, pixels, [&](cmodel::PixelSink& tiles, testbench::RawTapSink& taps) {
@@ -38,41 +48,41 @@ driver::DeviceFrame render_rtl(const cmodel::BeatSource& source, const driver::T
             with_taps.taps = &taps;
             return testbench::make_rtl_device(config, tiles, with_taps);
           });
-      rtl = &checked->device();
+      *rtl = &checked->device();
       return checked;
     }
     testbench::RtlOptions unchecked;
     unchecked.assertions = testbench::Assertions::Off;
     auto plain = testbench::make_rtl_device(config, pixels, unchecked);
-    rtl = plain.get();
+    *rtl = plain.get();
     return plain;
   };
-  run.emplace();
-  run->config = config;
-  return driver::run_device(source, grid, config, device, [&](cmodel::Device& finished) {
-    run->stalls = rtl->cycle_counters();
-    run->last_cycle = rtl->cycles();
+  out.finished = [checking, rtl, &run](cmodel::Device& finished) {
+    run->stalls = (*rtl)->cycle_counters();
+    run->last_cycle = (*rtl)->cycles();
     if (checking == Checking::Off) return;
     run->check = dynamic_cast<const testbench::CheckedDevice&>(finished).report();
     if (run->check->first) {
-      run->difference = testbench::describe(config, *run->check->first);
+      run->difference = testbench::describe(run->config, *run->check->first);
     } else if (!run->check->differences.empty()) {
       run->difference = run->check->differences.front();
     }
-  });
+  };
+  return out;
+}
+
+}  // namespace
+
+driver::DeviceFrame render_rtl(const cmodel::BeatSource& source, const driver::TileGrid& grid,
+                               const cmodel::Config& config, Checking checking, std::optional<RtlRun>& run) {
+  const Simulation rtl = simulation(config, checking, run);
+  return driver::run_device(source, grid, config, rtl.make, rtl.finished);
 }
 
 driver::DeviceRender render_rtl(const scene::Scene& scene, const cmodel::Config& config,
                                 const driver::RenderOptions& options, Checking checking, std::optional<RtlRun>& run) {
-  const driver::CompiledFrame compiled(scene, config);
-  driver::DeviceRender out;
-  const cmodel::BeatSource source = [&](const cmodel::BeatSink& sink) {
-    out.report = compiled.emit(sink, options.progress);
-  };
-  auto [frame, counters] = render_rtl(source, compiled.grid(), config, checking, run);
-  out.frame = std::move(frame);
-  out.counters = counters;
-  return out;
+  const Simulation rtl = simulation(config, checking, run);
+  return driver::run_device(scene, config, rtl.make, options, rtl.finished);
 }
 
 std::string mismatches_text(const testbench::CheckReport& check) {

@@ -61,6 +61,12 @@ std::unique_ptr<stages::Chain> StagedScene::chain(const cmodel::Config& config, 
                     : std::make_unique<stages::Chain>(*scene_, config);
 }
 
+std::unique_ptr<stages::Chain> StagedScene::chain(int threads, const Output& output) const {
+  auto made = chain(config_, threads);
+  if (made->gaussians() != nullptr) output.remark(remarks(made->gaussians()->projection()));
+  return made;
+}
+
 images::Metadata StagedScene::metadata(const char* what) const {
   return gaussians_ ? gaussian_metadata(what, *gaussians_, config_, golden::GaussianOrder::Centres)
                     : values_metadata(what, *scene_, config_);

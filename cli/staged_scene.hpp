@@ -38,6 +38,8 @@ class StagedScene {
   std::string summary() const;
   /// Refers to this object and to `config`.
   std::unique_ptr<stages::Chain> chain(const cmodel::Config& config, int threads) const;
+  /// With the scene's own configuration; prints what is left out.
+  std::unique_ptr<stages::Chain> chain(int threads, const Output& output) const;
   /// Metadata of values per pixel: "errors".
   images::Metadata metadata(const char* what) const;
 

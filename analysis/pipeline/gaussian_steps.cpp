@@ -18,7 +18,7 @@ GaussianSteps::GaussianSteps(const scene::GaussianScene& scene, const cmodel::Co
       value_(driver::target(driver::Site::Gaussian, config)),
       rim_(scene.description.cutoff * scene.description.cutoff) {
   driver::check_drawable(scene.description, config);
-  gaussians_ = scene::project_all(scene, nullptr, threads);
+  gaussians_ = scene::project_all(scene, &projection_, threads);
   for (const scene::ProjectedGaussian& one : gaussians_) {
     if (!driver::too_far(scene, one, driver::gaussian_reach(config))) continue;
     throw_usage({.where = "configuration " + config.name,

@@ -19,6 +19,7 @@ class GaussianSteps {
   /// farther into the picture than a record can.
   GaussianSteps(const scene::GaussianScene& scene, const cmodel::Config& config, int threads);
 
+  const scene::ProjectionReport& projection() const { return projection_; }
   /// Nearest first.
   const std::vector<scene::ProjectedGaussian>& gaussians() const { return gaussians_; }
   /// With the numbers `which`. Values are alpha times colour, and alpha.
@@ -32,6 +33,7 @@ class GaussianSteps {
   driver::TileGrid grid_;
   driver::Target centre_, value_;
   double rim_;  ///< the cutoff's square
+  scene::ProjectionReport projection_;
   std::vector<scene::ProjectedGaussian> gaussians_;
 };
 

@@ -27,7 +27,7 @@ struct Ended {
 
 /// The children of this process, each in its own process group: Ctrl-C reaches only this process, which ends them. No
 /// child outlives this process, however it ends. While the object exists, only wait() receives SIGINT, SIGTERM and
-/// SIGHUP (ignored signals stay ignored). For a process of one thread only: a fork has no other.
+/// SIGHUP (ignored signals stay ignored). For a process with one thread: a fork has no others.
 class Children {
  public:
   Children();

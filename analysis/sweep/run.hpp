@@ -24,11 +24,11 @@ struct RunOptions {
   bool replace_foreign = false;  ///< results of another program are replaced, not refused
   Progress progress{};           ///< counts finished cases of the shard
   std::function<void(const Case&, const CaseResult&)> finished{};  ///< called with each result as it is published
-  /// Why what cases read is no longer what the plan was made of; empty if it is. A run that this is found after is an
+  /// Asked after each run: which input of the plan has changed, as a message; empty if none has. The run is then an
   /// accident.
   std::function<std::string()> changed{};
-  /// Called where a case has a result and others wait: what later children share can be prepared here, since a child
-  /// has done the same unharmed.
+  /// Called when a case has a result and others wait. Work that later children share can be done here: a child has
+  /// already survived it.
   std::function<void(const Case&)> unharmed{};
   /// Called with the message of each case that has no result.
   std::function<void(const Case&, const std::string&)> accident{};

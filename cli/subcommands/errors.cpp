@@ -78,9 +78,10 @@ ExitCode run(const ErrorsArguments& arguments) {
       .scene = scene.summary(), .config = config, .attribution = {}, .tried = {}, .blame = arguments.blame};
   const int threads = arguments.common.threads;
   {
+    const auto chain = scene.chain(threads, output);
     ProgressBar bar("errors", watching(arguments.common));
     result.attribution = analysis::attribute(
-        *scene.chain(config, threads),
+        *chain,
         {.quick = arguments.quick, .shapley = arguments.shapley, .threads = threads, .progress = bar.callback()});
   }
   result.tried = analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); },

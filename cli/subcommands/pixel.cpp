@@ -19,7 +19,7 @@ struct PixelArguments {
   Common common;
   std::string at;  ///< "X,Y"
   StagedFlags of;
-  int lsb_bits = 8;
+  std::optional<int> lsb_bits;
   bool all = false;
   std::optional<int> sheet;
   std::optional<std::string> stream;  ///< instead of a scene
@@ -43,19 +43,15 @@ glm::ivec2 place_of(const std::string& text) {
 
 /// A stream has the device's words only.
 ExitCode run_stream(const PixelArguments& arguments, const glm::ivec2& at, const Output& output) {
-  const auto alone = [](bool given, const char* flag) {
-    if (!given) return;
-    throw_usage({.where = flag,
-                 .what = "cannot be combined with --stream, which has the device's words only",
+  const GaussianFlags& gaussians = arguments.of.gaussians;
+  if (arguments.of.scene != SceneFlags{} || gaussians.file || arguments.sheet || arguments.all || arguments.lsb_bits) {
+    throw_usage({.where = "--stream",
+                 .what = "cannot be combined with a scene's flags, --sheet, --all or --lsb-bits",
                  .expected = {},
                  .got = {},
-                 .fix = "leave one of them out"});
-  };
-  alone(arguments.of.scene != SceneFlags{}, "the scene");
-  alone(arguments.of.gaussians.file.has_value(), "--gaussians");
-  alone(arguments.sheet.has_value(), "--sheet");
-  alone(arguments.all, "--all");
-  refuse_without_gaussians(arguments.of.gaussians);
+                 .fix = "leave them out: a stream has the device's words only, and all of them are shown"});
+  }
+  refuse_without_gaussians(gaussians);
   const cmodel::Config config = load(arguments.of.config);
   check_outputs({.images = {},
                  .maps = {},
@@ -90,11 +86,12 @@ ExitCode run(const PixelArguments& arguments) {
   const cmodel::Config& config = scene.config();
   check_outputs({.images = {}, .maps = {}, .raws = {}, .others = {arguments.common.json}, .inputs = scene.inputs()});
   scene.read(output);
-  const auto made = scene.chain(config, arguments.common.threads);
+  const auto made = scene.chain(arguments.common.threads, output);
   const stages::Chain& chain = *made;
   const analysis::PixelReport report = analysis::explain(chain, at.x, at.y, arguments.common.threads);
   output.line(errors_heading(scene.summary(), config) +
-              analysis::to_text(report, chain, {.all = arguments.all, .sheet = arguments.sheet}, arguments.lsb_bits));
+              analysis::to_text(report, chain, {.all = arguments.all, .sheet = arguments.sheet},
+                                arguments.lsb_bits.value_or(8)));
   auto json = errors_identity("pixel", scene.summary(), config);
   json.update(analysis::to_json(report, chain));
   output.json(json);
@@ -109,7 +106,7 @@ void declare(Options& options, PixelArguments& to) {
   options.word("--stream", to.stream, "FILE", "instead of a scene: the device's words of a recorded stream, .fss");
   options.integer("--tile", to.tile, 0, 1L << 30, "N", "X,Y lie in this tile, as in reports of `verify`");
   options.group("Output");
-  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
+  options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1) (8)");
   options.flag("--all", to.all,
                "show the splats of every sheet, or every Gaussian, not only of the one in which the error grows most");
   options.integer("--sheet", to.sheet, 0, 1L << 30, "N", "show the splats of this sheet, or this Gaussian of the file");

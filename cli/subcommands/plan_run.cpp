@@ -120,8 +120,9 @@ ExitCode run(const PlanRunArguments& arguments) {
              .progress = bar.callback(),
              .finished =
                  [&](const plan::Case& one, const plan::CaseResult& result) {
-                   if (result.status != plan::Status::Pass)
-                     output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
+                   if (result.status == plan::Status::Pass) return;
+                   bar.erase();
+                   output.warn(fmt::format("case {}: {}\n  {}", one.id, result.message, plan::command_of(one)));
                  },
              .changed =
                  [] {
@@ -131,10 +132,12 @@ ExitCode run(const PlanRunArguments& arguments) {
              .unharmed = [&](const plan::Case& one) { shared.done(one); },
              .accident =
                  [&](const plan::Case& one, const std::string& message) {
+                   bar.erase();
                    output.warn(fmt::format("case {} has no result and will be run again next time: {}\n  {}", one.id,
                                            message, plan::command_of(one)));
                  },
              .note = [&](const std::string& text) { output.note(text); }});
+  bar.erase();
   output.line(to_text(summary, arguments.plan.folder()));
   output.json(to_json(summary, arguments, output.seconds()));
   if (summary.signal != 0) output.note("stopped by a signal: results are kept; run the plan again to continue");

@@ -65,7 +65,7 @@ void check(const RenderArguments& arguments, Engine engine) {
   }
   if (engine != Engine::CModel && (arguments.counters || arguments.no_counters)) {
     throw_usage({.where = arguments.counters ? "--counters" : "--no-counters",
-                 .what = "only the cmodel engine can leave counting out",
+                 .what = "only the cmodel engine can count or not: golden has no counters, the RTL always counts",
                  .expected = "--engine cmodel",
                  .got = "--engine " + arguments.engine,
                  .fix = "leave it out"});

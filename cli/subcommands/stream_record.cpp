@@ -84,7 +84,8 @@ ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::
   driver::GaussianReport report;
   {
     ProgressBar bar("recording", watching(arguments.common));
-    report = driver::record_stream(compile(scene, config, arguments.common.threads), arguments.out, bar.callback());
+    report =
+        driver::record_stream(compile(scene, config, arguments.common.threads, output), arguments.out, bar.callback());
   }
   output.line(fmt::format("{}\ndriver: {}, {}\n{}\n", summary(scene), counted(report.records, "ellipse record"),
                           counted(report.tiles, "tile"), arguments.out));

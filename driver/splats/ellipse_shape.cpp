@@ -47,11 +47,21 @@ cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::Sc
   // Moves the leading bit of the larger of A and C to the word's top bit, unless rounding up would overflow the word.
   int h = std::clamp(cmodel::kEllipseTermBits - 1 - std::ilogb(std::max(a, c)), 0, cmodel::kEllipseMostShift);
   if (h > 0 && std::ceil(std::ldexp(std::max(a, c), h)) > term.to.max) --h;
-  const auto size = quantise_to<std::int32_t>(std::ldexp(std::abs(b), h), cross);
-  return {.a = quantise_to<std::uint32_t>(std::ldexp(a, h), term),
-          .c = quantise_to<std::uint32_t>(std::ldexp(c, h), term),
-          .b = b < 0.0 ? -size : size,
-          .shift = static_cast<std::uint32_t>(h)};
+  cmodel::EllipseShape out{.a = quantise_to<std::uint32_t>(std::ldexp(a, h), term),
+                           .c = quantise_to<std::uint32_t>(std::ldexp(c, h), term),
+                           .b = 0,
+                           .shift = static_cast<std::uint32_t>(h)};
+  const double most = std::floor(2.0 * std::sqrt(static_cast<double>(out.a) * static_cast<double>(out.c)));
+  const auto size =
+      std::min(quantise_to<std::int32_t>(std::ldexp(std::abs(b), h), cross), static_cast<std::int32_t>(most));
+  out.b = b < 0.0 ? -size : size;
+  return out;
+}
+
+double determinant_error(const cmodel::Config& config, const cmodel::EllipseShape& words,
+                         const scene::ScreenShape& footprint) {
+  const double scale = std::ldexp(rim_of(config, words), -2 * config.position_frac_bits);
+  return determinant(words) * footprint.determinant() / (4.0 * scale * scale) - 1.0;
 }
 
 EllipseReach reach(const cmodel::Config& config, const cmodel::EllipseShape& shape) {

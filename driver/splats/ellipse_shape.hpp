@@ -20,6 +20,10 @@ scene::ScreenShape drawn_footprint(const scene::ScreenShape& shape, double kerne
 /// The words of a footprint; 4 A C >= B^2 after any rounding.
 cmodel::EllipseShape ellipse_words(const cmodel::Config& config, const scene::ScreenShape& footprint);
 
+/// Relative error of the determinant 4 A C - B^2: near 0 while the words hold the footprint's length and width.
+double determinant_error(const cmodel::Config& config, const cmodel::EllipseShape& words,
+                         const scene::ScreenShape& footprint);
+
 /// One record's part of a footprint: its windows and the pixels that may be inside, all relative to the centre's pixel.
 struct EllipseSpan {
   cmodel::EllipseWindows windows;

@@ -21,6 +21,9 @@
 namespace fastsplat::driver {
 namespace {
 
+/// Error of the determinant from which on an ellipse's words do not hold its shape.
+constexpr double kShapeLost = 0.5;
+
 /// No variance is below the low-pass, so the words A and C of every shape fit if they fit there.
 void check_low_pass(const scene::GaussianDescription& description, const cmodel::Config& config) {
   const double square = description.cutoff * description.cutoff;
@@ -98,6 +101,7 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
     report_.cut += part.cut;
     report_.vanished += part.vanished;
     report_.saturated += part.saturated;
+    report_.thin += part.thin;
   }
   std::erase_if(gaussians_, [](const QuantisedGaussian& one) { return one.empty(); });
   report_.drawn = gaussians_.size();
@@ -116,10 +120,11 @@ void GaussianFrame::quantise_all(const scene::GaussianScene& scene, std::span<co
     report.cut += too_far(scene, splat, reach) ? 1 : 0;
     if (!reachable(scene, splat, reach)) continue;
     QuantisedGaussian& words = gaussians_[first + i];
+    const scene::ScreenShape footprint{rim * splat.shape.xx, rim * splat.shape.xy, rim * splat.shape.yy};
     words = {.x = quantise_to<std::int32_t>(splat.x, place),
              .y = quantise_to<std::int32_t>(splat.y, place),
              .colour = {},
-             .shape = ellipse_words(config_, {rim * splat.shape.xx, rim * splat.shape.xy, rim * splat.shape.yy}),
+             .shape = ellipse_words(config_, footprint),
              .box = {}};
     bool saturated = false;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -133,6 +138,7 @@ void GaussianFrame::quantise_all(const scene::GaussianScene& scene, std::span<co
       continue;
     }
     report.saturated += saturated ? 1 : 0;
+    report.thin += std::abs(determinant_error(config_, words.shape, footprint)) > kShapeLost ? 1 : 0;
     words.box = box_of(config_, words);
   }
 }

@@ -48,6 +48,7 @@ struct GaussianReport {
   std::uint64_t vanished = 0;   ///< Gaussians whose words are all 0
   std::uint64_t saturated = 0;  ///< Gaussians brighter than the input format holds
   std::uint64_t cut = 0;        ///< Gaussians that reach farther into the picture than a record can express
+  std::uint64_t thin = 0;       ///< Gaussians so long and thin that an ellipse's words do not hold their shape
   std::uint64_t records = 0;    ///< over all tiles
   std::uint64_t in_tiles = 0;   ///< Gaussians with a record, over all tiles
   std::uint64_t tiles = 0;

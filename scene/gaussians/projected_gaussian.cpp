@@ -54,6 +54,12 @@ bool meets_picture(const GaussianScene& scene, const ProjectedGaussian& splat) {
          splat.y - down < scene.camera.height() - 1.0;
 }
 
+/// Whether the determinant, a difference of two products, has no more than ten right bits.
+bool is_degenerate(const ScreenShape& shape) {
+  constexpr double kLost = 0x1p-42;
+  return !(shape.determinant() > kLost * shape.xx * shape.yy);
+}
+
 bool project(const GaussianScene& scene, const View& seen, std::uint32_t number, ProjectedGaussian& out) {
   const Gaussian& gaussian = scene.cloud->gaussians[number];
   const Camera& camera = scene.camera;
@@ -105,6 +111,8 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
         ++part.counts.near;
       } else if (!meets_picture(scene, splat)) {
         ++part.counts.outside;
+      } else if (is_degenerate(splat.shape)) {
+        ++part.counts.degenerate;
       } else {
         part.splats.push_back(splat);
       }
@@ -116,6 +124,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
   for (const Part& part : parts) {
     counts.near += part.counts.near;
     counts.outside += part.counts.outside;
+    counts.degenerate += part.counts.degenerate;
     for (const ProjectedGaussian& splat : part.splats) {
       depths.push_back(splat.depth);
       all.push_back(&splat);

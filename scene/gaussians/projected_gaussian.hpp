@@ -38,13 +38,14 @@ struct ProjectionReport {
   std::uint64_t gaussians = 0;  ///< of the cloud
   std::uint64_t near = 0;       ///< behind the near plane
   std::uint64_t outside = 0;    ///< whose footprint meets no pixel
+  std::uint64_t degenerate = 0;  ///< so long and thin that their shape is lost in the rounding of doubles; left out
 };
 
 /// Projects one Gaussian. Returns false if it is nearer than the near plane; nothing else is culled here.
 bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out);
 
-/// The Gaussians that meet a pixel, nearest first; at equal depth in the order of the file. `threads` (0: all
-/// cores) never change them.
+/// The Gaussians that meet a pixel and are not degenerate, nearest first; at equal depth in the order of the file.
+/// `threads` (0: all cores) never change them.
 std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr,
                                            int threads = 0);
 

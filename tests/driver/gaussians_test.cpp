@@ -59,6 +59,47 @@ Seen seen(const scene::GaussianScene& scene, const cmodel::Config& config) {
   return {std::move(device), apart};
 }
 
+/// shells:60, whose first Gaussian is a needle of this length along (1, 1, 1), a thousandth as thick.
+scene::GaussianScene with_needle(float length) {
+  GaussianCloud cloud = scene::make_synthetic_gaussians("shells:60");
+  cloud.gaussians[0].scale = {length, 1e-3F, 1e-3F};
+  cloud.gaussians[0].rotation = {0.88047F, 0.0F, -0.27985F, 0.36470F};
+  scene::GaussianDescription description;
+  description.width = 60, description.height = 50;
+  description.up = scene::UpAxis::Z;
+  return scene::build_gaussian_scene(description, std::make_shared<GaussianCloud>(std::move(cloud)));
+}
+
+// N-8-48: 4 A C >= B^2 however long a Gaussian is; what words or doubles cannot hold is counted, never lost unseen.
+TEST(Gaussians, NeedlesAreDrawnOrCounted) {
+  const auto config = usual_config();
+  std::size_t thin = 0, degenerate = 0, sound = 0, negative = 0;
+  for (float length = 1.0F; length < 1e12F; length *= 3.0F) {
+    const auto scene = with_needle(length);
+    scene::ProjectionReport report;
+    const auto projected = scene::project_all(scene, &report);
+    EXPECT_EQ(projected.size() + report.degenerate + report.outside, 60U);
+    degenerate += report.degenerate;
+    for (const auto& one : projected) {
+      const double rim = scene.description.cutoff * scene.description.cutoff;
+      const auto words = ellipse_words(config, {rim * one.shape.xx, rim * one.shape.xy, rim * one.shape.yy});
+      negative += 4 * std::int64_t{words.a} * words.c < std::int64_t{words.b} * words.b ? 1 : 0;
+    }
+    const Seen here = seen(scene, config);
+    thin += here.device.report.thin;
+    sound += here.device.report.thin + report.degenerate == 0 && here.apart.largest < 3.0 ? 1 : 0;
+    EXPECT_TRUE(here.apart.largest < 3.0 || here.device.report.thin > 0) << length << ": " << here.apart.largest;
+  }
+  figure("needles drawn well", static_cast<double>(sound), "(limit > 0)");
+  figure("needles too thin for words", static_cast<double>(thin), "(limit > 0)");
+  figure("needles too thin for doubles", static_cast<double>(degenerate), "(limit > 0)");
+  figure("words with 4 A C < B^2", static_cast<double>(negative), "(limit 0)");
+  EXPECT_GT(sound, 0U);
+  EXPECT_GT(thin, 0U);
+  EXPECT_GT(degenerate, 0U);
+  EXPECT_EQ(negative, 0U);
+}
+
 // N-8-83: RADIAL.
 TEST(Gaussians, AreWithin70dBOfGolden) {
   const auto config = usual_config();

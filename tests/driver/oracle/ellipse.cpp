@@ -59,7 +59,8 @@ EllipseWords ellipse_words(const Given& given, const Shape& shape, std::int64_t 
   out.h = h;
   out.A = static_cast<std::int64_t>(std::ceil(std::ldexp(a, h)));
   out.C = static_cast<std::int64_t>(std::ceil(std::ldexp(d, h)));
-  out.B = static_cast<std::int64_t>(std::floor(std::ldexp(std::abs(b), h)));
+  out.B = std::min(static_cast<std::int64_t>(std::floor(std::ldexp(std::abs(b), h))),
+                   static_cast<std::int64_t>(std::floor(std::sqrt(4.0 * static_cast<double>(out.A * out.C)))));
   if (b < 0.0) out.B = -out.B;
 
   const double one = std::ldexp(1.0, c.pf);

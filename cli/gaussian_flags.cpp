@@ -8,17 +8,19 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/number_text.hpp"
 #include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
+#include "scene/settings.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 const std::vector<std::string>& order_names() {
-  static const std::vector<std::string> names = {"centres", "pixels"};
+  static const std::vector<std::string> names = {"centres", "distance", "pixels"};
   return names;
 }
 
@@ -40,10 +42,111 @@ void refuse_what_is_of_volumes(const SceneFlags& scene) {
   if (scene.transfer_function) refuse("--tf");
   if (scene.kernel) refuse("--kernel");
   if (scene.nan_as) refuse("--nan-as");
-  constexpr std::array kOurs{"--azimuth", "--elevation", "--roll", "--zoom", "--fov", "--background"};
+  constexpr std::array kOurs{"--azimuth", "--elevation", "--roll", "--zoom", "--fov", "--crop", "--background"};
   for (const auto& [flag, text] : scene.settings) {
     if (std::ranges::find(kOurs, flag) == kOurs.end()) refuse(flag.c_str());
   }
+}
+
+/// Numbers with commas between; empty if one is invalid.
+std::vector<double> numbers_from(const std::string& text) {
+  std::vector<double> out;
+  std::string_view rest = text;
+  while (true) {
+    const auto comma = rest.find(',');
+    const auto number = number_from(rest.substr(0, comma));
+    if (!number) return {};
+    out.push_back(*number);
+    if (comma == std::string_view::npos) return out;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<glm::dvec3> point_from(const std::string& text) {
+  const auto numbers = numbers_from(text);
+  return numbers.size() == 3 ? std::optional(glm::dvec3(numbers[0], numbers[1], numbers[2])) : std::nullopt;
+}
+
+std::string not_a_point(const std::string& text) {
+  return point_from(text) ? "" : fmt::format("expected X,Y,Z, three numbers, got '{}'", text);
+}
+
+std::string not_a_pose(const std::string& text) {
+  if (scene::camera_from_matrix(numbers_from(text))) return "";
+  return fmt::format("expected 12 or 16 numbers with commas between, row by row, a rotation and a position, got '{}'",
+                     text);
+}
+
+void declare_cameras(Options& options, GaussianFlags& to) {
+  options.word(
+      "--cameras", to.cameras, "FILE",
+      "see the Gaussians from a camera of cameras.json or transforms.json, in its size unless --size is given");
+  options.word("--view", to.view, "NAME|N", "the camera's name or number, from 0 (0)");
+  options.value(
+      "--pose", not_a_pose, [&to](const std::string& text) { to.pose = text; }, "NUMBERS",
+      "see the Gaussians from here: matrix from camera (x right, y down, z forward) to scene, 12 numbers row by row");
+  options.value(
+      "--eye", not_a_point, [&to](const std::string& text) { to.eye = text; }, "X,Y,Z",
+      "see the Gaussians from this point of the scene");
+  options.value(
+      "--look-at", not_a_point, [&to](const std::string& text) { to.look_at = text; }, "X,Y,Z",
+      "point in the middle of the picture (the scene's middle)");
+  static const std::string near = fmt::format(
+      "Gaussians nearer than this along the view axis are not drawn, in the scene's unit ({:g} with --cameras, --pose "
+      "or "
+      "--eye, else {:g} of the eye's distance)",
+      scene::kNearPlaced, scene::kNearShare);
+  options.number("--near", to.near, "NUMBER", near.c_str());
+}
+
+/// Refuses flags that contradict each other or have no effect.
+void check_cameras(const GaussianFlags& flags, const SceneFlags& scene) {
+  struct Flag {
+    const char* name;
+    bool given;
+  };
+  const Flag cameras{"--cameras", flags.cameras.has_value()}, pose{"--pose", flags.pose.has_value()},
+      eye{"--eye", flags.eye.has_value()};
+  const auto both = [](const Flag& one, const Flag& other) {
+    if (one.given && other.given)
+      meaningless(one.name, fmt::format("cannot be combined with {}", other.name), "use one of them");
+  };
+  both(cameras, pose), both(cameras, eye), both(pose, eye);
+  if (flags.view && !cameras.given) meaningless("--view", "requires --cameras", "add --cameras FILE");
+  if (flags.look_at && !eye.given) meaningless("--look-at", "requires --eye", "add --eye X,Y,Z");
+  const Flag flat{"--orthographic", scene.orthographic}, near{"--near", flags.near.has_value()};
+  both(near, flat);
+  const auto setting = [&](const char* name) { return Flag{name, scene.settings.contains(name)}; };
+  for (const Flag& placed : {cameras, pose, eye})
+    for (const Flag& other : {flat, setting("--azimuth"), setting("--elevation"), setting("--zoom")})
+      both(placed, other);
+  for (const Flag& placed : {cameras, pose}) both(placed, setting("--roll"));
+  both(cameras, setting("--fov"));
+}
+
+std::optional<scene::PlacedCamera> placed_by(const GaussianFlags& flags) {
+  if (flags.pose) return scene::camera_from_matrix(numbers_from(*flags.pose));
+  if (!flags.eye) return std::nullopt;
+  scene::PlacedCamera camera{.eye = *point_from(*flags.eye)};
+  if (flags.look_at) camera.look_at = point_from(*flags.look_at);
+  return camera;
+}
+
+/// The camera of --cameras.
+void use_camera(const scene::CameraFile& file, std::size_t number, const GaussianView& view,
+                scene::GaussianDescription& to) {
+  const scene::PlacedCamera& camera = file.cameras[number];
+  to.placed = camera;
+  if (view.size) return;
+  to.width = camera.intrinsics->width, to.height = camera.intrinsics->height;
+  if (std::max(to.width, to.height) > scene::kMaxImageSide) {
+    throw_usage({.where = "--cameras",
+                 .what = "the camera's picture is too large",
+                 .expected = fmt::format("at most {} pixels a side", scene::kMaxImageSide),
+                 .got = fmt::format("{}x{}", to.width, to.height),
+                 .fix = "add --size"});
+  }
+  check_memory(to.width, to.height);
 }
 
 }  // namespace
@@ -62,27 +165,52 @@ void declare(Options& options, GaussianFlags& to) {
   static const std::string cutoff = fmt::format("radius of a footprint in standard deviations, {:g} to {:g} ({:g})",
                                                 scene::kCutoffLimits.low, scene::kCutoffLimits.high, usual.cutoff);
   declare_strict(options, to.strict);
+  declare_cameras(options, to);
   options.number("--low-pass", to.low_pass, "NUMBER", low_pass.c_str());
   options.number("--cutoff", to.cutoff, "NUMBER", cutoff.c_str());
-  options.choice("--order", to.order, order_names(), "NAME",
-                 "golden: sort by depth of centres, or in every pixel: centres, pixels (centres)");
+  options.choice(
+      "--order", to.order, order_names(), "NAME",
+      "sort by depth of centres, by their distance from the eye (as the file declares, else centres); golden: "
+      "or in every pixel");
 }
 
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene) {
   refuse_what_is_of_volumes(scene);
+  check_cameras(flags, scene);
   SceneFlags camera = scene;
   if (!camera.orthographic) camera.perspective = true;
   GaussianView view;
+  if (const auto crop = camera.settings.find("--crop"); crop != camera.settings.end()) {
+    view.crop = scene::real_box_from(crop->second);
+    camera.settings.erase(crop);
+  }
   view.shown = describe(camera);
   view.description.camera = view.shown.camera;
   view.description.width = view.shown.width;
   view.description.height = view.shown.height;
+  if (scene.size) view.size = {view.shown.width, view.shown.height};
+  view.description.placed = placed_by(flags);
+  view.description.near = flags.near;
   view.description.up = scene::usual_up(*flags.file);
   if (flags.up) view.description.up = named<scene::UpAxis>(scene::up_axis_names(), *flags.up);
   if (flags.low_pass) view.description.low_pass = *flags.low_pass;
   if (flags.cutoff) view.description.cutoff = *flags.cutoff;
-  if (flags.order) view.order = named<golden::GaussianOrder>(order_names(), *flags.order);
+  if (flags.order == "pixels") {
+    view.order = golden::GaussianOrder::Pixels;
+  } else if (flags.order) {
+    view.description.order = named<scene::GaussianSort>(order_names(), *flags.order);
+  }
   return view;
+}
+
+GaussianView describe_for_device(const GaussianFlags& flags, const SceneFlags& scene) {
+  const GaussianView view = describe(flags, scene);
+  if (view.order == golden::GaussianOrder::Centres) return view;
+  throw_usage({.where = "--order",
+               .what = "a device draws Gaussians in one order for all pixels",
+               .expected = "centres or distance",
+               .got = "pixels",
+               .fix = "leave it out; `fastsplat compare` measures what the order costs"});
 }
 
 void refuse_without_gaussians(const GaussianFlags& flags) {
@@ -90,6 +218,12 @@ void refuse_without_gaussians(const GaussianFlags& flags) {
                            : flags.low_pass ? "--low-pass"
                            : flags.cutoff   ? "--cutoff"
                            : flags.order    ? "--order"
+                           : flags.cameras  ? "--cameras"
+                           : flags.view     ? "--view"
+                           : flags.pose     ? "--pose"
+                           : flags.eye      ? "--eye"
+                           : flags.look_at  ? "--look-at"
+                           : flags.near     ? "--near"
                            : flags.strict   ? "--strict"
                                             : nullptr;
   if (flag != nullptr)
@@ -97,7 +231,9 @@ void refuse_without_gaussians(const GaussianFlags& flags) {
 }
 
 std::vector<std::string> inputs_of(const GaussianFlags& flags) {
-  return flags.file ? inputs_of_gaussians(*flags.file) : std::vector<std::string>{};
+  std::vector<std::string> files = flags.file ? inputs_of_gaussians(*flags.file) : std::vector<std::string>{};
+  if (flags.cameras) files.push_back(*flags.cameras);
+  return files;
 }
 
 void declare_strict(Options& options, bool& to) {
@@ -118,10 +254,17 @@ std::vector<std::string> inputs_of_gaussians(const std::string& name_or_path) {
 }
 
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view) {
-  const auto cloud = std::make_shared<const scene::GaussianCloud>(read_gaussians(*flags.file, flags.strict));
   scene::GaussianDescription description = view.description;
-  if (!flags.up && cloud->up) description.up = *cloud->up;
-  return scene::build_gaussian_scene(description, cloud);
+  std::optional<scene::CameraFile> cameras;
+  if (flags.cameras) {
+    cameras = scene::load_cameras(*flags.cameras, view.size);
+    use_camera(*cameras, scene::find_camera(*cameras, flags.view.value_or("0")), view, description);
+  }
+  auto cloud = read_gaussians(*flags.file, flags.strict);
+  if (view.crop) scene::crop(cloud, *view.crop);
+  if (!flags.up && cloud.up) description.up = *cloud.up;
+  if (cameras) cloud.remarks.insert(cloud.remarks.end(), cameras->remarks.begin(), cameras->remarks.end());
+  return scene::build_gaussian_scene(description, std::make_shared<const scene::GaussianCloud>(std::move(cloud)));
 }
 
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {

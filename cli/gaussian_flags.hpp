@@ -14,12 +14,14 @@
 #include "golden/gaussians.hpp"
 #include "scene/display.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
+#include "scene/voxel_box.hpp"
 
 namespace fastsplat::cli {
 
 struct GaussianFlags {
   std::optional<std::string> file, up, order;
-  std::optional<double> low_pass, cutoff;
+  std::optional<std::string> cameras, view, pose, eye, look_at;  ///< of a placed camera
+  std::optional<double> low_pass, cutoff, near;
   bool strict = false;  ///< refuses files with Gaussians that cannot be drawn
 };
 
@@ -28,13 +30,17 @@ void declare(Options& options, GaussianFlags& to);
 /// A view and its display settings.
 struct GaussianView {
   scene::GaussianDescription description;
-  scene::SceneDescription shown;  ///< only `display` is used
+  scene::SceneDescription shown;       ///< only `display` is used
+  std::optional<scene::RealBox> crop;  ///< Gaussians whose centres are outside are ignored
+  std::optional<glm::ivec2> size;      ///< --size
   golden::GaussianOrder order = golden::GaussianOrder::Centres;
 };
 
 /// Precondition: `flags.file` is set. Of the scene's flags it accepts the camera's, --size and --background; UserError
 /// (Usage) for others. Perspective unless --orthographic; up is --up, else -y for files and z for built-in scenes.
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene);
+/// The same; UserError (Usage) for --order pixels, too.
+GaussianView describe_for_device(const GaussianFlags& flags, const SceneFlags& scene);
 /// UserError (Usage) for flags that require --gaussians.
 void refuse_without_gaussians(const GaussianFlags& flags);
 /// Files that the command reads.
@@ -48,8 +54,8 @@ scene::GaussianCloud read_gaussians(const std::string& name_or_path, bool strict
 /// A scene's file; empty for a built-in scene.
 std::vector<std::string> inputs_of_gaussians(const std::string& name_or_path);
 
-/// Reads the file or generates the built-in scene; UserError (Usage) for unknown names. Up is --up, else as the file
-/// declares.
+/// Reads the file or generates the built-in scene, and reads --cameras; UserError (Usage) for unknown names. Up is
+/// --up, else as the file declares; the size is --size, else the camera's.
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
 /// GaussianCloud::remarks as warnings that name the scene.
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud);

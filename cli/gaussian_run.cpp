@@ -30,9 +30,6 @@ void check(const RenderArguments& arguments, Engine engine) {
     throw_usage({.where = flag, .what = what, .expected = {}, .got = {}, .fix = fix});
   };
   const std::string none = "it cannot be combined with --gaussians";
-  if (engine != Engine::Golden && arguments.gaussians.order)
-    refuse("--order", "the device supports one order only, that of its records",
-           "add --engine golden, or leave it out");
   if (arguments.orbit || arguments.sequence || arguments.frames || arguments.keep_memory)
     refuse("--orbit, --sequence, --frames, --keep-memory", "animations support volumes only",
            "render stills with --azimuth");
@@ -128,6 +125,29 @@ Json to_json(const DeviceGaussians& device) {
   return json;
 }
 
+/// Everything that decides what of the scene is where in the picture.
+std::string view_text(const scene::GaussianScene& scene) {
+  const auto& description = scene.description;
+  const auto& camera = description.camera;
+  std::string text;
+  if (description.placed) {
+    const auto vector = [](const glm::dvec3& of) { return fmt::format("{},{},{}", of.x, of.y, of.z); };
+    const glm::dmat3 back = glm::transpose(scene.turn);  // to the file's axes
+    text = fmt::format("eye {}, right {}, forward {}, scale {} and {}, axis at {},{}, near {}",
+                       vector(description.placed->eye), vector(back * scene.camera.right()),
+                       vector(back * scene.camera.direction()), scene.camera.scale_at(0.0),
+                       scene.camera.scale_at(0.0) * scene.camera.stretch(), scene.camera.centre().x,
+                       scene.camera.centre().y, scene.near);
+  } else {
+    text = fmt::format("{}, azimuth {}, elevation {}, roll {}, zoom {}, fov {}, up {}",
+                       camera.projection == scene::Projection::Perspective ? "perspective" : "orthographic",
+                       camera.azimuth, camera.elevation, camera.roll, camera.zoom, camera.fov,
+                       scene::up_axis_names()[static_cast<std::size_t>(description.up)]);
+    if (description.near) text += fmt::format(", near {}", scene.near);
+  }
+  return text + fmt::format(", low-pass {}, cutoff {}", description.low_pass, description.cutoff);
+}
+
 Json to_json(const Result& result) {
   const auto& description = result.scene.description;
   Json json{{"verb", "render"},
@@ -142,6 +162,7 @@ Json to_json(const Result& result) {
               {"up", scene::up_axis_names()[static_cast<std::size_t>(description.up)]},
               {"low_pass", description.low_pass},
               {"cutoff", description.cutoff},
+              {"view", view_text(result.scene)},
               {"width", description.width},
               {"height", description.height}}}};
   if (result.scene.cloud->antialiased) json["gaussians"]["antialiased"] = true;
@@ -218,18 +239,14 @@ Image shown_of(const Image& image, const scene::Display& display, bool linear) {
 
 images::Metadata gaussian_metadata(const std::string& engine, const scene::GaussianScene& scene,
                                    const std::optional<cmodel::Config>& config, golden::GaussianOrder order) {
-  const auto& camera = scene.description.camera;
-  images::Metadata metadata{
-      {"engine", engine},
-      {"method", order == golden::GaussianOrder::Pixels ? "gaussians, ordered at every pixel" : "gaussians"},
-      {"gaussians", scene.cloud->source},
-      {"content_hash", hash_text(scene::content_hash(*scene.cloud))},
-      {"view", fmt::format("{}, azimuth {}, elevation {}, roll {}, zoom {}, fov {}, up {}, low-pass {}, cutoff {}",
-                           camera.projection == scene::Projection::Perspective ? "perspective" : "orthographic",
-                           camera.azimuth, camera.elevation, camera.roll, camera.zoom, camera.fov,
-                           scene::up_axis_names()[static_cast<std::size_t>(scene.description.up)],
-                           scene.description.low_pass, scene.description.cutoff)},
-      {"version", program_version()}};
+  images::Metadata metadata{{"engine", engine},
+                            {"method", order == golden::GaussianOrder::Pixels ? "gaussians, ordered at every pixel"
+                                       : scene.order == scene::GaussianSort::Distance ? "gaussians, ordered by distance"
+                                                                                      : "gaussians"},
+                            {"gaussians", scene.cloud->source},
+                            {"content_hash", hash_text(scene::content_hash(*scene.cloud))},
+                            {"view", view_text(scene)},
+                            {"version", program_version()}};
   if (config) {
     metadata["config"] = config->name;
     metadata["config_hash"] = hash_text(cmodel::config_hash(*config));
@@ -243,7 +260,8 @@ ExitCode run_gaussians(const RenderArguments& arguments) {
   check(arguments, engine);
   std::optional<cmodel::Config> config;
   if (engine != Engine::Golden) config = load_for_gaussians(arguments.config);
-  const GaussianView view = describe(arguments.gaussians, arguments.scene);
+  const GaussianView view = engine == Engine::Golden ? describe(arguments.gaussians, arguments.scene)
+                                                     : describe_for_device(arguments.gaussians, arguments.scene);
   check_outputs(
       {.images = arguments.out,
        .maps = {},

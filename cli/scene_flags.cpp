@@ -38,20 +38,6 @@ Size size_from(const std::string& text) {
   return {*width, *height};
 }
 
-// Both engines hold several frames of doubles or words; refuses pictures that cannot fit in memory before rendering.
-void check_memory(int width, int height) {
-  constexpr double kBytesPerPixel = 96.0;
-  const double need = kBytesPerPixel * width * height;
-  const auto have = static_cast<double>(machine_memory());
-  if (have > 0 && need > have) {
-    throw_usage({.where = "--size",
-                 .what = fmt::format("an image of {}x{} needs about {:.1f} GB", width, height, need / 1e9),
-                 .expected = fmt::format("at most {:.1f} GB, this machine's memory", have / 1e9),
-                 .got = {},
-                 .fix = "use a smaller --size"});
-  }
-}
-
 [[noreturn]] void contradiction(const std::string& what, const std::string& fix) {
   throw_usage({.where = {}, .what = what, .expected = {}, .got = {}, .fix = fix});
 }
@@ -98,7 +84,26 @@ std::vector<scene::Given> given_by(const SceneFlags& flags) {
   return given;
 }
 
+void set_checked(const scene::Setting& setting, const std::string& text, scene::SceneDescription& to) {
+  if (const std::string problem = scene::problem_with(setting, text); !problem.empty())
+    throw_usage({.where = setting.flag, .what = problem, .expected = {}, .got = {}, .fix = {}});
+  scene::set_from_text(setting, text, to);
+}
+
 }  // namespace
+
+void check_memory(int width, int height) {
+  constexpr double kBytesPerPixel = 96.0;
+  const double need = kBytesPerPixel * width * height;
+  const auto have = static_cast<double>(machine_memory());
+  if (have > 0 && need > have) {
+    throw_usage({.where = "--size",
+                 .what = fmt::format("an image of {}x{} needs about {:.1f} GB", width, height, need / 1e9),
+                 .expected = fmt::format("at most {:.1f} GB, this machine's memory", have / 1e9),
+                 .got = {},
+                 .fix = "use a smaller --size"});
+  }
+}
 
 void declare_nan_as(Options& options, std::optional<double>& to) {
   options.number("--nan-as", to, "VALUE", "value that replaces NaN and infinite voxels, which are refused otherwise");
@@ -135,8 +140,13 @@ void declare(Options& options, SceneFlags& to) {
   for (const scene::Setting& setting : scene::settings()) {
     if (*setting.flag == '\0') continue;
     options.group(setting.group);
+    // A box of Gaussians is one of any numbers; describe() checks one of voxels.
+    const bool box = std::holds_alternative<scene::Box>(setting.value);
     options.value(
-        setting.flag, [&setting](const std::string& text) { return scene::problem_with(setting, text); },
+        setting.flag,
+        [&setting, box](const std::string& text) {
+          return box && scene::real_box_from(text) ? std::string{} : scene::problem_with(setting, text);
+        },
         [&to, &setting](const std::string& text) { to.settings[setting.flag] = text; }, setting.unit, setting.help);
     if (const auto* choice = std::get_if<scene::Choice>(&setting.value)) options.values(choice->names);
     if (std::holds_alternative<scene::Switch>(setting.value))
@@ -165,7 +175,7 @@ scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence*
   check_memory(to.width, to.height);
   for (const scene::Setting& setting : scene::settings()) {
     const auto flag = flags.settings.find(setting.flag);
-    if (flag != flags.settings.end()) scene::set_from_text(setting, flag->second, to);
+    if (flag != flags.settings.end()) set_checked(setting, flag->second, to);
     if (flag != flags.settings.end() && std::holds_alternative<scene::Box>(setting.value)) to.crop_place.clear();
   }
   for (const auto& given : {given_by(flags), file.idle}) {

@@ -32,6 +32,9 @@ volume::ReadOptions reading(const std::optional<double>& nan_as);
 /// have its effect in the file's own scene, before the flags apply.
 scene::SceneDescription describe(const SceneFlags& flags, const scene::Sequence* sequence = nullptr);
 
+/// UserError (Usage) for pictures that cannot fit in memory: engines hold several frames of doubles or words.
+void check_memory(int width, int height);
+
 /// UserError (Usage) for display-only flags, for subcommands that write no picture. Display keys of a file are
 /// accepted.
 void refuse_display(const SceneFlags& flags);

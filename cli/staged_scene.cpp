@@ -21,13 +21,8 @@ void declare(Options& options, StagedFlags& to) {
 StagedScene::StagedScene(const StagedFlags& flags)
     : flags_(flags), config_(flags.gaussians.file ? load_for_gaussians(flags.config) : load(flags.config)) {
   if (flags.gaussians.file) {
-    view_ = describe(flags.gaussians, flags.scene);
-    if (view_->order == golden::GaussianOrder::Centres) return;
-    throw_usage({.where = "--order",
-                 .what = "has no steps: the device sorts by the depth of centres",
-                 .expected = "centres",
-                 .got = "pixels",
-                 .fix = "leave it out; `fastsplat compare` measures what the order costs"});
+    view_ = describe_for_device(flags.gaussians, flags.scene);
+    return;
   }
   refuse_without_gaussians(flags.gaussians);
   description_ = describe(flags.scene);

@@ -250,7 +250,7 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
   };
   cmodel::BeatSource source;
   if (arguments.gaussians.file) {
-    const auto scene = build(arguments.gaussians, describe(arguments.gaussians, arguments.scene));
+    const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
     source = emitting(std::make_shared<const driver::GaussianFrame>(
         compile(scene, options.config, arguments.common.threads, output)));

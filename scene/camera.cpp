@@ -87,8 +87,23 @@ Camera::Camera(const CameraParams& params, double radius, int width, int height)
         fmt::format("zoom < {:.3g} at this field of view", 1.0 / std::sin(half_fov)), params.zoom,
         "lower the zoom, or the field of view together with it", "camera.zoom");
   }
+  eye_ = -eye_distance_ * forward_;
   scale_ = half_side / std::tan(half_fov) / eye_distance_;
 }
+
+Camera::Camera(const Pinhole& pinhole)
+    : projection_(Projection::Perspective),
+      forward_(pinhole.forward),
+      right_(pinhole.right),
+      down_(pinhole.down),
+      scale_(pinhole.focal.x),
+      eye_distance_(1.0),
+      width_(pinhole.width),
+      height_(pinhole.height),
+      centre_(pinhole.centre),
+      eye_(pinhole.eye),
+      at_(glm::dot(pinhole.eye, right_), glm::dot(pinhole.eye, down_), glm::dot(pinhole.eye, forward_) + 1.0),
+      stretch_(pinhole.focal.y / pinhole.focal.x) {}
 
 Camera Camera::enlarged(double factor, const glm::dvec2& middle) const {
   Camera camera = *this;
@@ -102,20 +117,21 @@ double Camera::scale_at(double depth) const {
 }
 
 ScreenPoint Camera::project(const glm::dvec3& world) const {
-  const double depth = glm::dot(world, forward_);
+  const double depth = glm::dot(world, forward_) - at_.z;
   const double scale = scale_at(depth);
-  return {.x = centre_.x + scale * glm::dot(world, right_),
-          .y = centre_.y + scale * glm::dot(world, down_),
+  return {.x = centre_.x + scale * (glm::dot(world, right_) - at_.x),
+          .y = centre_.y + stretch_ * scale * (glm::dot(world, down_) - at_.y),
           .depth = depth,
           .scale = scale};
 }
 
 Ray Camera::ray(double x, double y) const {
   const double across = (x - centre_.x) / scale_;
-  const double along = (y - centre_.y) / scale_;
-  const glm::dvec3 origin = across * right_ + along * down_;
+  const double along = (y - centre_.y) / (stretch_ * scale_);
+  const glm::dvec3 from_axis = across * right_ + along * down_;
+  const glm::dvec3 origin = from_axis + at_.x * right_ + at_.y * down_ + at_.z * forward_;
   if (projection_ == Projection::Orthographic) return {origin, forward_, 1.0};
-  const glm::dvec3 direction = glm::normalize(origin + eye_distance_ * forward_);
+  const glm::dvec3 direction = glm::normalize(from_axis + eye_distance_ * forward_);
   return {origin, direction, glm::dot(direction, forward_)};
 }
 

@@ -10,23 +10,39 @@
 
 namespace fastsplat::scene {
 
+namespace {
+
+/// Numbers of A..B,C..D,E..F with A <= B and so on.
+template <class Vector, class Parse>
+bool ranges(std::string_view text, const Parse& parse, Vector& low, Vector& high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto comma = text.find(',');
+    if ((comma == std::string_view::npos) != (axis == 2)) return false;
+    const std::string_view range = text.substr(0, comma);
+    const auto dots = range.find("..");
+    if (dots == std::string_view::npos) return false;
+    const auto least = parse(range.substr(0, dots)), most = parse(range.substr(dots + 2));
+    if (!least || !most || *most < *least) return false;
+    low[axis] = *least;
+    high[axis] = *most;
+    if (axis < 2) text.remove_prefix(comma + 1);
+  }
+  return true;
+}
+
+}  // namespace
+
 std::optional<VoxelBox> box_from(const std::string& text) {
   VoxelBox box;
   if (text.empty()) return box;
-  std::string_view rest = text;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (axis == 2)) return std::nullopt;
-    const std::string_view range = rest.substr(0, comma);
-    const auto dots = range.find("..");
-    if (dots == std::string_view::npos) return std::nullopt;
-    const auto low = integer_from<int>(range.substr(0, dots)), high = integer_from<int>(range.substr(dots + 2));
-    if (!low || !high || *low < 0 || *high < *low) return std::nullopt;
-    box.low[axis] = *low;
-    box.high[axis] = *high;
-    if (axis < 2) rest.remove_prefix(comma + 1);
-  }
-  return box;
+  const bool fine =
+      ranges(text, integer_from<int>, box.low, box.high) && glm::all(glm::greaterThanEqual(box.low, glm::ivec3(0)));
+  return fine ? std::optional(box) : std::nullopt;
+}
+
+std::optional<RealBox> real_box_from(const std::string& text) {
+  RealBox box;
+  return ranges(text, number_from, box.low, box.high) ? std::optional(box) : std::nullopt;
 }
 
 std::string to_string(const VoxelBox& box) {

@@ -20,6 +20,14 @@ struct VoxelBox {
 
 /// nullopt if the text is not a box; "" is everything.
 std::optional<VoxelBox> box_from(const std::string& text);
+
+/// Both ends included, in any unit.
+struct RealBox {
+  glm::dvec3 low{0.0}, high{0.0};
+};
+/// The same of any finite numbers.
+std::optional<RealBox> real_box_from(const std::string& text);
+
 std::string to_string(const VoxelBox& box);
 
 /// The voxels inside as a separate volume, its world centred on them; minimum and maximum stay those of the whole.

@@ -322,7 +322,7 @@ ExitCode run(const CyclesArguments& arguments) {
     result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
   } else if (arguments.gaussians.file) {
-    const auto scene = build(arguments.gaussians, describe(arguments.gaussians, arguments.scene));
+    const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
     result.scene = summary(scene);
     const auto frame = compile(scene, config, arguments.common.threads, output);

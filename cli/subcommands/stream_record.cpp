@@ -71,16 +71,9 @@ Json to_json(const StreamRecordResult& result) {
 
 /// 3-D Gaussians instead of a volume.
 ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::Config& config, const Output& output) {
-  if (arguments.gaussians.order) {
-    throw_usage({.where = "--order",
-                 .what = "the device supports one order only, that of its records",
-                 .expected = {},
-                 .got = {},
-                 .fix = "leave it out"});
-  }
-  const GaussianView view = describe(arguments.gaussians, arguments.scene);
-  driver::check_image_size(view.description.width, view.description.height);
-  const scene::GaussianScene scene = build(arguments.gaussians, view);
+  const scene::GaussianScene scene =
+      build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
+  driver::check_image_size(scene.camera.width(), scene.camera.height());
   driver::GaussianReport report;
   {
     ProgressBar bar("recording", watching(arguments.common));

@@ -47,6 +47,7 @@ struct GaussianCloud {
   std::optional<UpAxis> up{};          ///< as declared by the file
   bool antialiased = false;            ///< trained so that the low-pass dims a footprint as much as it widens it
   bool linear = false;                 ///< colours are linear light, not encoded as sRGB
+  bool by_distance = false;            ///< the file declares the order of distances from the eye
   std::vector<DroppedGaussians> dropped{};  ///< by the first of each cause
   std::vector<std::string> remarks{};       ///< dropped, assumed or unsupported content, a sentence each
 

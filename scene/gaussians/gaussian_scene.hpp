@@ -3,11 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/camera.hpp"
 #include "scene/gaussians/gaussian_cloud.hpp"
+#include "scene/gaussians/placed_camera.hpp"
+#include "scene/voxel_box.hpp"
 
 namespace fastsplat::scene {
 
@@ -17,10 +20,19 @@ const std::vector<std::string>& up_axis_names();  ///< in the order of UpAxis: x
 struct Limits {
   double low, high;
 };
-inline constexpr Limits kLowPassLimits{0.01, 100.0}, kCutoffLimits{1.0, 4.0};
+inline constexpr Limits kLowPassLimits{0.01, 100.0}, kCutoffLimits{1.0, 4.0}, kNearLimits{1e-6, 1e6};
+/// Least depth before the eye: of an orbiting camera, as a share of its distance; of a placed one, in the scene's unit,
+/// as Kerbl et al. draw.
+inline constexpr double kNearShare = 0.01, kNearPlaced = 0.2;
+
+/// Nearest first: by the depth of centres along the view axis, or by their distance from the eye.
+enum class GaussianSort { Depth, Distance };
 
 struct GaussianDescription {
   CameraParams camera{};
+  std::optional<PlacedCamera> placed{};  ///< instead; of `camera` then only roll and field of view are used, if at all
+  std::optional<double> near{};          ///< absent: kNearShare or kNearPlaced
+  std::optional<GaussianSort> order{};   ///< absent: as the cloud declares
   int width = 512, height = 512;
   UpAxis up = UpAxis::MinusY;
   double low_pass = 0.3;  ///< square pixels added to each projected variance
@@ -35,10 +47,15 @@ struct GaussianScene {
   glm::dvec3 middle;    ///< in the file's axes: medians of the positions
   double radius = 1.0;  ///< of the sphere about it that holds 95 % of the Gaussians with their cutoff
   Camera camera;        ///< zoom 1 fits that sphere
+  double near = 0.0;    ///< least depth before the eye
+  GaussianSort order = GaussianSort::Depth;
 };
 
 /// The axis of a scene that declares none: z of a built-in one, -y of a file.
 UpAxis usual_up(const std::string& name_or_path);
+
+/// Removes Gaussians whose centres are outside. UserError (Usage) if none is inside.
+void crop(GaussianCloud& cloud, const RealBox& box);
 
 /// Throws UserError (Usage) if the description exceeds its limits.
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud);

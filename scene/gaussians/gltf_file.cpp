@@ -136,8 +136,9 @@ void Gltf::follow(const Json& extension) {
     remark("the colour space '" + space.substr(0, 40) + "' is not supported: colours are read as sRGB");
   if (const std::string method = word("projection", "perspective"); method != "perspective")
     remark("the projection '" + method.substr(0, 40) + "' is not supported");
-  if (const std::string method = word("sortingMethod", "cameraDistance"); method != "cameraDistance")
-    remark("the sorting method '" + method.substr(0, 40) + "' is not supported");
+  const std::string method = word("sortingMethod", "cameraDistance");
+  to_.by_distance = method == "cameraDistance";
+  if (!to_.by_distance) remark("the sorting method '" + method.substr(0, 40) + "' is not supported");
 }
 
 void Gltf::take(const Json& primitive, std::size_t node) {

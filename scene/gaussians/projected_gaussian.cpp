@@ -41,10 +41,12 @@ ScreenShape shape_of(const GaussianScene& scene, const glm::dmat3& sigma, const 
   if (camera.projection() == Projection::Orthographic) return squeezed(sigma, {scale, 0, 0}, {0, scale, 0});
   // x = f X / Z: dx = f/Z dX - f X/Z^2 dZ, with f/Z the scale there.
   const double distance = camera.eye_distance() + view.z, focal = scale * distance;
-  const double widest_x = kWidest * 0.5 * camera.width() / focal, widest_y = kWidest * 0.5 * camera.height() / focal;
+  const double scale_y = scale * camera.stretch();
+  const double widest_x = kWidest * 0.5 * camera.width() / focal;
+  const double widest_y = kWidest * 0.5 * camera.height() / (focal * camera.stretch());
   const double along_x = std::clamp(view.x / distance, -widest_x, widest_x);
   const double along_y = std::clamp(view.y / distance, -widest_y, widest_y);
-  return squeezed(sigma, {scale, 0, -scale * along_x}, {0, scale, -scale * along_y});
+  return squeezed(sigma, {scale, 0, -scale * along_x}, {0, scale_y, -scale_y * along_y});
 }
 
 bool meets_picture(const GaussianScene& scene, const ProjectedGaussian& splat) {
@@ -52,6 +54,13 @@ bool meets_picture(const GaussianScene& scene, const ProjectedGaussian& splat) {
   const double across = cutoff * std::sqrt(splat.shape.xx), down = cutoff * std::sqrt(splat.shape.yy);
   return splat.x + across > 0.0 && splat.x - across < scene.camera.width() - 1.0 && splat.y + down > 0.0 &&
          splat.y - down < scene.camera.height() - 1.0;
+}
+
+/// What Gaussians are sorted by.
+double order_of(const GaussianScene& scene, const ProjectedGaussian& splat) {
+  const Camera& camera = scene.camera;
+  if (scene.order == GaussianSort::Depth || camera.projection() == Projection::Orthographic) return splat.depth;
+  return (camera.eye_distance() + splat.depth) / camera.ray(splat.x, splat.y).depth_per_mm;
 }
 
 /// Whether the determinant, a difference of two products, has no more than ten right bits.
@@ -64,9 +73,9 @@ bool project(const GaussianScene& scene, const View& seen, std::uint32_t number,
   const Gaussian& gaussian = scene.cloud->gaussians[number];
   const Camera& camera = scene.camera;
   const glm::dvec3 world = world_position(scene, gaussian);
-  const glm::dvec3 view = seen.to_view * world;
+  const glm::dvec3 view = seen.to_view * world - camera.depth_zero();
   const bool perspective = camera.projection() == Projection::Perspective;
-  if (perspective && camera.eye_distance() + view.z < kNear * camera.eye_distance()) return false;
+  if (perspective && camera.eye_distance() + view.z < scene.near) return false;
 
   const ScreenPoint at = camera.project(world);
   const glm::dmat3 sigma = seen.turn * covariance(gaussian) * seen.turn_back;
@@ -77,8 +86,7 @@ bool project(const GaussianScene& scene, const View& seen, std::uint32_t number,
   const double dimmed = scene.cloud->antialiased ? std::sqrt(unfiltered / shape.determinant()) : 1.0;
 
   // From the eye to the Gaussian, in the file's axes: the argument of its harmonics.
-  const glm::dvec3 from_eye =
-      perspective ? glm::normalize(world + camera.eye_distance() * camera.direction()) : camera.direction();
+  const glm::dvec3 from_eye = perspective ? glm::normalize(world - camera.eye()) : camera.direction();
   out = {.number = number,
          .x = at.x,
          .y = at.y,
@@ -126,7 +134,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
     counts.outside += part.counts.outside;
     counts.degenerate += part.counts.degenerate;
     for (const ProjectedGaussian& splat : part.splats) {
-      depths.push_back(splat.depth);
+      depths.push_back(order_of(scene, splat));
       all.push_back(&splat);
     }
   }

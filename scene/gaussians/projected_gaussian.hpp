@@ -16,9 +16,6 @@ namespace fastsplat::scene {
 inline constexpr double kMostAlpha = 0.99;
 /// Early-termination threshold on transmittance.
 inline constexpr double kFinished = 1e-4;
-/// The near plane as a share of the scene's distance.
-inline constexpr double kNear = 0.01;
-
 struct ProjectedGaussian {
   std::uint32_t number = 0;  ///< in the cloud
   double x = 0.0, y = 0.0;   ///< of the centre, pixels
@@ -44,7 +41,8 @@ struct ProjectionReport {
 /// Projects one Gaussian. Returns false if it is nearer than the near plane; nothing else is culled here.
 bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out);
 
-/// The Gaussians that meet a pixel and are not degenerate, nearest first; at equal depth in the order of the file.
+/// The Gaussians that meet a pixel and are not degenerate, nearest first by GaussianScene::order; equal ones in the
+/// order of the file.
 /// `threads` (0: all cores) never change them.
 std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr,
                                            int threads = 0);

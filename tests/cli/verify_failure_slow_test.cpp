@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "driver/files/stream_file.hpp"
@@ -57,6 +58,9 @@ TEST_F(VerifyFailure, IsFollowedThroughTheModel) {
   std::istringstream line(failure.at("follow").get<std::string>());
   std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
   ASSERT_GT(words.size(), 5u) << smallest;
+  std::smatch place;
+  ASSERT_TRUE(std::regex_search(smallest, place, std::regex(R"(pixel \((\d+), ?(\d+)\))"))) << smallest;
+  EXPECT_EQ(words.at(2), place[1].str() + "," + place[2].str()) << smallest;
   words.erase(words.begin());
   const auto followed = fastsplat(words, here_);
   expect_success(followed);

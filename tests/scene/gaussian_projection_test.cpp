@@ -147,6 +147,7 @@ TEST(GaussianProjection, SplatsBehindOrOutsideAreCulledAndTheRestSorted) {
   for (std::size_t i = usual; i < cloud.gaussians.size(); ++i) cloud.gaussians[i].opacity = 0.5F;
   auto scene = scene_of(cloud, description);
   scene.middle = plain.middle, scene.radius = plain.radius, scene.camera = plain.camera;
+  scene.near = plain.near;
   ProjectionReport report;
   const auto all = project_all(scene, &report);
   EXPECT_EQ(report.gaussians, usual + 4);

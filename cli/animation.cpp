@@ -90,7 +90,7 @@ const std::string& video_source(const RenderArguments& arguments) {
 struct Result {
   struct Frame {
     FrameFiles files;
-    std::optional<FrameReport> report;  ///< absent: kept from an earlier run
+    std::optional<Json> figures;  ///< absent: kept from an earlier run
   };
   std::string engine;
   std::vector<Frame> frames;
@@ -99,17 +99,17 @@ struct Result {
 
   std::size_t kept() const {
     return static_cast<std::size_t>(
-        std::count_if(frames.begin(), frames.end(), [](const Frame& frame) { return !frame.report; }));
+        std::count_if(frames.begin(), frames.end(), [](const Frame& frame) { return !frame.figures; }));
   }
 };
 
 Json to_json(const Result& result) {
   Json json{{"verb", "render"}, {"version", program_version()}, {"engine", result.engine}, {"frames", Json::array()}};
   for (std::size_t at = 0; at < result.frames.size(); ++at) {
-    const auto& [files, report] = result.frames[at];
-    Json entry{{"frame", at}, {"outputs", files.out}, {"kept", !report}};
+    const auto& [files, figures] = result.frames[at];
+    Json entry{{"frame", at}, {"outputs", files.out}, {"kept", !figures}};
     if (!files.raw.empty()) entry["raw"] = files.raw;
-    if (report) entry.update(to_json(*report));
+    if (figures) entry.update(*figures);
     json["frames"].push_back(std::move(entry));
   }
   if (!result.seconds) return json;
@@ -160,6 +160,7 @@ std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
       refuse_animation("--azimuth", "cannot be combined with --orbit, which sets the azimuth", "leave --azimuth out");
     return orbit_from(*arguments.orbit, *arguments.frames);
   }
+  if (arguments.gaussians.file) return std::nullopt;
   if (!arguments.scene.file)
     refuse_animation("--sequence", "requires a scene file", "add --scene FILE with a [sequence]");
   auto sequence = scene::load_sequence(*arguments.scene.file);
@@ -167,12 +168,16 @@ std::optional<scene::Sequence> sequence_of(const RenderArguments& arguments) {
   return sequence;
 }
 
-void check_animation(const RenderArguments& arguments, const scene::Sequence& sequence) {
+void check_animation(const RenderArguments& arguments, int frames) {
+  if (!arguments.wave.file.empty())
+    refuse_animation("--wave", "cannot be combined with an animation, which has one run per frame",
+                     "render the frame as a still");
   OutputNames names;
   names.others = {arguments.common.json, arguments.video};
-  names.inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")));
-  for (int frame = 0; frame < sequence.frames; ++frame) {
-    const auto files = files_of(arguments, frame, sequence.frames);
+  names.inputs = joined(arguments.gaussians.file ? inputs_of(arguments.gaussians) : inputs_of(arguments.scene),
+                        inputs_of_config(arguments.config.config.value_or("")));
+  for (int frame = 0; frame < frames; ++frame) {
+    const auto files = files_of(arguments, frame, frames);
     names.images.insert(names.images.end(), files.out.begin(), files.out.end());
     if (!files.raw.empty()) names.raws.push_back(files.raw);
   }
@@ -207,48 +212,31 @@ void check_frames(const scene::Sequence& sequence, const scene::SceneDescription
   for (std::size_t frame = 1; frame < count; ++frame) scene_of(sequence, still, frame, volume);
 }
 
-ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
-                       const scene::Sequence& sequence, const Output& output) {
+ExitCode run_animation(const RenderArguments& arguments, int frames, const std::function<AnimationFrame(int)>& frame,
+                       const Output& output) {
   const auto start = ProgressBar::Clock::now();
-  const auto count = static_cast<std::size_t>(sequence.frames);
   Result result;
-  result.engine = to_string(renderer.engine);
-  std::shared_ptr<const volume::Volume> volume;  // no track changes it
-  // A cropped volume is made anew for each frame.
-  const auto store =
-      count > 1 && still.crop.everything() ? std::make_shared<scene::SplatStore>(kept_bytes(arguments)) : nullptr;
-  for (std::size_t frame = 0; frame < count; ++frame) {
-    scene::Scene scene = scene_of(sequence, still, frame, volume);
-    scene.store = store;
-    if (!volume) {
-      output.remark(remarks(*scene.volume));
-      check_frames(sequence, still, count, scene.whole);
-      output.line(fmt::format("{}, {}", summary(scene), counted(count, "frame")));
-    }
-    volume = scene.whole;
-
-    const auto files = files_of(arguments, static_cast<int>(frame), sequence.frames);
-    const auto metadata = metadata_of(renderer, scene);
+  result.engine = arguments.engine;
+  for (int number = 0; number < frames; ++number) {
+    const AnimationFrame next = frame(number);
+    const auto files = files_of(arguments, number, frames);
     Result::Frame& entry = result.frames.emplace_back(Result::Frame{files, {}});
     ExitCode code = ExitCode::Pass;
     // A kept frame cannot be checked: with --check every frame is rendered.
-    if (renderer.checking == Checking::Off && is_current(files, metadata)) {
+    if (!arguments.check && is_current(files, next.metadata)) {
       for (const auto& path : files.out) output.line(path + " kept");
     } else {
-      RenderedFrame rendered;
+      WriteFrame write;
       {
-        ProgressBar bar(fmt::format("{} {}/{}", to_string(renderer.engine), frame + 1, count),
-                        watching(arguments.common), start);
+        ProgressBar bar(fmt::format("{} {}/{}", arguments.engine, number + 1, frames), watching(arguments.common),
+                        start);
         const auto show = bar.callback();
-        const auto whole = [&show, frame, count](std::size_t done, std::size_t total) {
-          show(frame * total + done, count * total);
+        const auto whole = [&show, number, frames](std::size_t done, std::size_t total) {
+          show(static_cast<std::size_t>(number) * total + done, static_cast<std::size_t>(frames) * total);
         };
-        rendered = render_frame(renderer, scene, show ? Progress(whole) : Progress());
+        write = next.render(show ? Progress(whole) : Progress());
       }
-      entry.report = report_of(renderer, scene, rendered);
-      output.remark(remarks(*entry.report));
-      write_frame(rendered, scene, files, metadata, output);
-      if (rendered.checked) code = rendered.checked->exit_code();
+      code = write(files, entry.figures.emplace());
     }
     if (code != ExitCode::Pass) {
       output.json(to_json(result));
@@ -257,16 +245,50 @@ ExitCode run_animation(const RenderArguments& arguments, const Renderer& rendere
   }
   if (!arguments.video.empty()) {
     write_video({.path = arguments.video,
-                 .frames = FrameNames(video_source(arguments), sequence.frames).format(),
-                 .count = sequence.frames,
+                 .frames = FrameNames(video_source(arguments), frames).format(),
+                 .count = frames,
                  .rate = arguments.rate.value_or(kFramesASecond)});
     output.line(arguments.video);
     result.video = arguments.video;
   }
   result.seconds = output.seconds();
   output.json(to_json(result));
-  output.note_time(fmt::format("{} rendered, {} kept", counted(count - result.kept(), "frame"), result.kept()));
+  output.note_time(
+      fmt::format("{} rendered, {} kept", counted(result.frames.size() - result.kept(), "frame"), result.kept()));
   return ExitCode::Pass;
+}
+
+ExitCode run_animation(const RenderArguments& arguments, const Renderer& renderer, const scene::SceneDescription& still,
+                       const scene::Sequence& sequence, const Output& output) {
+  const auto count = static_cast<std::size_t>(sequence.frames);
+  std::shared_ptr<const volume::Volume> volume;  // no track changes it
+  // A cropped volume is made anew for each frame.
+  const auto store =
+      count > 1 && still.crop.everything() ? std::make_shared<scene::SplatStore>(kept_bytes(arguments)) : nullptr;
+  const auto frame = [&](int number) {
+    const auto scene =
+        std::make_shared<scene::Scene>(scene_of(sequence, still, static_cast<std::size_t>(number), volume));
+    scene->store = store;
+    if (!volume) {
+      output.remark(remarks(*scene->volume));
+      check_frames(sequence, still, count, scene->whole);
+      output.line(fmt::format("{}, {}", summary(*scene), counted(count, "frame")));
+    }
+    volume = scene->whole;
+    const images::Metadata metadata = metadata_of(renderer, *scene);
+    const auto render = [&renderer, &output, scene, metadata](const Progress& progress) -> WriteFrame {
+      return [&renderer, &output, scene, metadata, rendered = render_frame(renderer, *scene, progress)](
+                 const FrameFiles& files, Json& figures) {
+        const FrameReport report = report_of(renderer, *scene, rendered);
+        figures = to_json(report);
+        output.remark(remarks(report));
+        write_frame(rendered, *scene, files, metadata, output);
+        return rendered.checked ? rendered.checked->exit_code() : ExitCode::Pass;
+      };
+    };
+    return AnimationFrame{metadata, render};
+  };
+  return run_animation(arguments, sequence.frames, frame, output);
 }
 
 }  // namespace fastsplat::cli

@@ -267,6 +267,20 @@ scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view)
   return scene::build_gaussian_scene(description, std::make_shared<const scene::GaussianCloud>(std::move(cloud)));
 }
 
+std::vector<scene::GaussianDescription> frames_of(const scene::Sequence& sequence, const GaussianView& view) {
+  std::vector<scene::GaussianDescription> frames(static_cast<std::size_t>(sequence.frames), view.description);
+  for (int frame = 0; frame < sequence.frames; ++frame)
+    frames[static_cast<std::size_t>(frame)].camera = scene::at_frame(sequence, view.shown, frame).camera;
+  return frames;
+}
+
+std::vector<scene::GaussianDescription> frames_of_cameras(const GaussianFlags& flags, const GaussianView& view) {
+  const scene::CameraFile file = scene::load_cameras(*flags.cameras, view.size);
+  std::vector<scene::GaussianDescription> frames(file.cameras.size(), view.description);
+  for (std::size_t number = 0; number < frames.size(); ++number) use_camera(file, number, view, frames[number]);
+  return frames;
+}
+
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud) {
   std::vector<Remark> remarks;
   for (const auto& text : cloud.remarks) remarks.push_back({Remark::Warning, cloud.name + ": " + text});

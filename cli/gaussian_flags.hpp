@@ -57,6 +57,9 @@ std::vector<std::string> inputs_of_gaussians(const std::string& name_or_path);
 /// Reads the file or generates the built-in scene, and reads --cameras; UserError (Usage) for unknown names. Up is
 /// --up, else as the file declares; the size is --size, else the camera's.
 scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view);
+/// The views of a sequence's frames, and of all cameras of --cameras.
+std::vector<scene::GaussianDescription> frames_of(const scene::Sequence& sequence, const GaussianView& view);
+std::vector<scene::GaussianDescription> frames_of_cameras(const GaussianFlags& flags, const GaussianView& view);
 /// GaussianCloud::remarks as warnings that name the scene.
 std::vector<Remark> remarks(const scene::GaussianCloud& cloud);
 /// Without a name, that of `ellipse` with every sample composited and golden's early-termination threshold.

@@ -86,7 +86,11 @@ std::vector<scene::Given> given_by(const SceneFlags& flags) {
 
 void set_checked(const scene::Setting& setting, const std::string& text, scene::SceneDescription& to) {
   if (const std::string problem = scene::problem_with(setting, text); !problem.empty())
-    throw_usage({.where = setting.flag, .what = problem, .expected = {}, .got = {}, .fix = {}});
+    throw_usage({.where = setting.flag,
+                 .what = problem,
+                 .expected = {},
+                 .got = {},
+                 .fix = "`fastsplat volume info` prints the number of voxels"});
   scene::set_from_text(setting, text, to);
 }
 

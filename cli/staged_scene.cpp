@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "cli/errors_output.hpp"
-#include "cli/gaussian_run.hpp"
+#include "cli/gaussian_picture.hpp"
 #include "cli/output_names.hpp"
 #include "cli/volume_json.hpp"
 #include "driver/splats/splat_quantiser.hpp"

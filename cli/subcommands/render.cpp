@@ -169,20 +169,13 @@ ExitCode run(const RenderArguments& arguments) {
                     .counters = arguments.counts(),
                     .threads = arguments.common.threads};
   check(arguments, renderer.engine);
-  if (arguments.gaussians.file) return run_gaussians(arguments);
+  if (arguments.gaussians.file) return run_gaussians(arguments, renderer);
   refuse_without_gaussians(arguments.gaussians);
   const auto sequence = sequence_of(arguments);
   const scene::SceneDescription description = describe(arguments.scene, sequence ? &*sequence : nullptr);
   if (renderer.engine != Engine::Golden) renderer.config = load(arguments.config);
   if (sequence) {
-    if (!arguments.wave.file.empty()) {
-      throw_usage({.where = "--wave",
-                   .what = "cannot be combined with an animation, which has one run per frame",
-                   .expected = {},
-                   .got = {},
-                   .fix = "render the frame as a still"});
-    }
-    check_animation(arguments, *sequence);
+    check_animation(arguments, sequence->frames);
   } else {
     check_outputs(
         {.images = arguments.out,

@@ -97,6 +97,7 @@ void check_files(const VerifyArguments& arguments, const ConfigFlags& config, So
   if (source == Source::Stream) names.inputs.push_back(arguments.stream);
   if (source == Source::Scene)
     names.inputs = joined(joined(names.inputs, inputs_of(arguments.scene)), inputs_of(arguments.gaussians));
+  if (arguments.gaussians.file) describe_for_device(arguments.gaussians, arguments.scene);  // refuses bad flags
   check_outputs(names);
 }
 

@@ -106,6 +106,25 @@ void check_limit(const char* flag, double value, const Limits& limits, double us
                .fix = fmt::format("{:g} is the default", usual)});
 }
 
+GaussianScene view_of(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud,
+                      const glm::dvec3& middle, double radius) {
+  const glm::dmat3 turn = turn_of(description.up);
+  // Also where the camera is placed: it checks angles, field of view and size.
+  Camera camera(description.camera, radius, description.width, description.height);
+  if (description.placed) camera = placed(description, turn, middle);
+  const double near = description.placed ? kNearPlaced : kNearShare * camera.eye_distance();
+  if (description.near) check_limit("--near", *description.near, kNearLimits, near);
+  const auto order = description.order.value_or(cloud->by_distance ? GaussianSort::Distance : GaussianSort::Depth);
+  return {.description = description,
+          .cloud = std::move(cloud),
+          .turn = turn,
+          .middle = middle,
+          .radius = radius,
+          .camera = camera,
+          .near = description.near.value_or(near),
+          .order = order};
+}
+
 }  // namespace
 
 const std::vector<std::string>& up_axis_names() {
@@ -150,20 +169,11 @@ GaussianScene build_gaussian_scene(const GaussianDescription& description, std::
   check_limit("--cutoff", description.cutoff, kCutoffLimits, GaussianDescription{}.cutoff);
   const glm::dvec3 middle = middle_of(*cloud);
   const double radius = radius_of(*cloud, middle, description.cutoff);
-  const glm::dmat3 turn = turn_of(description.up);
-  // Also where the camera is placed: it checks angles, field of view and size.
-  Camera camera(description.camera, radius, description.width, description.height);
-  if (description.placed) camera = placed(description, turn, middle);
-  const double near = description.placed ? kNearPlaced : kNearShare * camera.eye_distance();
-  if (description.near) check_limit("--near", *description.near, kNearLimits, near);
-  return {.description = description,
-          .cloud = cloud,
-          .turn = turn,
-          .middle = middle,
-          .radius = radius,
-          .camera = camera,
-          .near = description.near.value_or(near),
-          .order = description.order.value_or(cloud->by_distance ? GaussianSort::Distance : GaussianSort::Depth)};
+  return view_of(description, std::move(cloud), middle, radius);
+}
+
+GaussianScene seen_by(const GaussianDescription& description, const GaussianScene& scene) {
+  return view_of(description, scene.cloud, scene.middle, scene.radius);
 }
 
 }  // namespace fastsplat::scene

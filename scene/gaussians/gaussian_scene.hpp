@@ -59,5 +59,7 @@ void crop(GaussianCloud& cloud, const RealBox& box);
 
 /// Throws UserError (Usage) if the description exceeds its limits.
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud);
+/// The same cloud from another camera or in another size; nothing else of `description` may differ.
+GaussianScene seen_by(const GaussianDescription& description, const GaussianScene& scene);
 
 }  // namespace fastsplat::scene

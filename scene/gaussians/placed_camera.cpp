@@ -204,7 +204,7 @@ std::size_t find_camera(const CameraFile& file, const std::string& name) {
                .expected = fmt::format("0 to {}, or a name such as '{}'", cameras.size() - 1,
                                        printable(cameras.front().name.empty() ? "0" : cameras.front().name)),
                .got = "'" + printable(name) + "'",
-               .fix = {}});
+               .fix = "use one of these"});
 }
 
 Intrinsics resized(const Intrinsics& intrinsics, int width, int height) {

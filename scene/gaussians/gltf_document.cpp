@@ -132,7 +132,7 @@ GltfDocument::GltfDocument(std::string_view bytes, std::filesystem::path path)
     json_ = parse_json<Json>(std::string(text));
   } catch (const Json::parse_error& error) {
     refuse("invalid JSON in a glTF file", {}, fmt::format("an error at byte {}", error.byte));
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     refuse("invalid JSON in a glTF file", {}, error.what());
   }
   if (!json_.is_object()) refuse("invalid JSON in a glTF file", "an object", json_.type_name());

@@ -259,6 +259,7 @@ TEST(Gltf, DamageIsNamed) {
       {bytes.substr(0, bytes.size() - 4), "shorter than its binary chunk"},
       {patched(bytes, 20, "["), "invalid JSON"},
       {patched(bytes, 20, "{\"a\":" + std::string(100, '[')), "nested more than"},
+      {patched(bytes, 20, "{\"a\":1e999,"), "number overflow"},
       {changed([](Json& json) { json["nodes"] = 3; }), "no nodes ("},
       {changed([](Json& json) { json["scene"] = 7; }), "scenes[7]"},
       {changed([](Json& json) { json["scene"] = -1; }), "no valid scene"},

@@ -56,7 +56,7 @@ Spread scales(const scene::GaussianCloud& cloud, bool largest) {
 Spread opacities(const scene::GaussianCloud& cloud) {
   return spread_of(cloud, [&](std::size_t i) { return cloud.gaussians[i].opacity; });
 }
-/// Of the constant harmonic alone.
+/// Colours of the constant harmonic alone.
 Spread colours(const scene::GaussianCloud& cloud, int channel) {
   return spread_of(cloud, [&](std::size_t i) {
     return 0.5 + scene::kConstantHarmonic * static_cast<double>(cloud.harmonics_of(i)[0][channel]);

@@ -66,7 +66,7 @@ ExitCode run(const GaussiansConvertArguments& arguments) {
   GaussiansConvertResult result{.cloud = read_gaussians(arguments.scene, arguments.strict), .out = arguments.out};
   result.lost = scene::lost_in_gaussian_file(result.cloud, result.out);
   scene::save_gaussians(result.cloud, result.out);
-  std::error_code no_size;  // as of a device
+  std::error_code no_size;  // devices have none
   const std::uintmax_t bytes = std::filesystem::file_size(result.out, no_size);
   result.bytes = no_size ? 0 : bytes;
   output.line(to_text(result));

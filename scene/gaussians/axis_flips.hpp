@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formats differ in which axes point right, up and forward. A cloud has the axes of PLY files: x right, y down, z
-// forward. Axes that only point the other way are exact changes of sign.
+// forward. Flipping an axis changes only signs, so it is exact.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Little-endian numbers in the bytes of a file of Gaussians. Reading beyond the end is the caller's mistake.
+// Little-endian numbers in the bytes of a file of Gaussians. Callers must not read beyond the end.
 #pragma once
 
 #include <algorithm>

@@ -132,7 +132,7 @@ GltfDocument::GltfDocument(std::string_view bytes, std::filesystem::path path)
     json_ = parse_json<Json>(std::string(text));
   } catch (const Json::parse_error& error) {
     refuse("invalid JSON in a glTF file", {}, fmt::format("an error at byte {}", error.byte));
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     refuse("invalid JSON in a glTF file", {}, error.what());
   }
   if (!json_.is_object()) refuse("invalid JSON in a glTF file", "an object", json_.type_name());
@@ -177,7 +177,13 @@ std::string_view GltfDocument::buffer(std::size_t index) {
         refuse(what + " has an unsupported uri", "data:...;base64,", text.substr(0, 40));
       own = from_base64(std::string_view(text).substr(comma + 1));
     } else if (own.empty()) {
-      own = read_text_file(file_beside(path_, from_uri(text), path_.string() + ", " + what), kMostGaussianBytes);
+      if (text.find("://") != std::string::npos)
+        refuse(what + " has a remote uri", "a file in the folder of the glTF file", text.substr(0, 120),
+               "download the buffer and name it in the glTF file");
+      const std::filesystem::path file = file_beside(path_, from_uri(text), path_.string() + ", " + what);
+      if (std::error_code ignored; !std::filesystem::exists(file, ignored))
+        refuse("the file of " + what + " is missing", file.string(), {}, "keep it in the folder of the glTF file");
+      own = read_text_file(file, kMostGaussianBytes);
     }
     bytes = own;
   } else if (index != 0) {

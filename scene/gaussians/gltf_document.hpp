@@ -11,12 +11,14 @@
 
 namespace fastsplat::scene {
 
+inline constexpr int kGltfFloat = 5126;  ///< a componentType
+
 /// Numbers of an accessor, as floats.
 struct GltfNumbers {
   std::string_view bytes;  ///< from its first element
   std::size_t count = 0, stride = 0;
   std::size_t width = 1;  ///< numbers an element
-  int type = 5126;        ///< glTF's componentType
+  int type = kGltfFloat;  ///< glTF's componentType
   bool normalized = false;
 
   float at(std::size_t element, std::size_t number) const;
@@ -25,7 +27,7 @@ struct GltfNumbers {
 /// Every refusal is a UserError (Input) that names the file.
 class GltfDocument {
  public:
-  /// `bytes`: a .glb or .gltf, which outlives it; `path` names it, and is where its other files are.
+  /// `bytes`: a .glb or .gltf, which outlives it. `path`: its name; its buffers are in that folder.
   GltfDocument(std::string_view bytes, std::filesystem::path path);
 
   const nlohmann::json& json() const { return json_; }

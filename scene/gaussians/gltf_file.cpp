@@ -50,13 +50,19 @@ class Gltf {
   std::vector<std::optional<glm::dmat4>> world_;  ///< of nodes that were visited
   std::size_t others_ = 0;
   bool logarithms_ = false;
+  bool quantised_ = false;  ///< positions may be integers
 };
 
 void Gltf::check_required() {
+  const Json::json_pointer place("/asset/version");
+  const Json version = file_.json().contains(place) ? file_.json()[place] : Json();
+  if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
+    file_.refuse("unsupported asset.version of glTF", "2.0", version.dump().substr(0, 40), "export it as glTF 2.0");
   const auto required = file_.json().find("extensionsRequired");
   if (required == file_.json().end() || !required->is_array()) return;
   for (const Json& name : *required) {
     const std::string text = name.is_string() ? name.get<std::string>() : "";
+    quantised_ |= text == "KHR_mesh_quantization";
     if (text != kExtension && text != "KHR_mesh_quantization")
       file_.refuse("the glTF file requires an extension that is not supported", kExtension, text,
                    "export it without compression or other extensions");
@@ -82,8 +88,13 @@ glm::dmat4 Gltf::transformation(const Json& node) const {
       for (int row = 0; row < 4; ++row) out[column][row] = matrix[static_cast<std::size_t>(4 * column + row)];
     return out;
   }
-  if (const auto turn = list(node, "rotation", 4); !turn.empty())
-    out = glm::mat4_cast(glm::normalize(glm::dquat(turn[3], turn[0], turn[1], turn[2])));
+  if (const auto turn = list(node, "rotation", 4); !turn.empty()) {
+    const glm::dquat quaternion(turn[3], turn[0], turn[1], turn[2]);
+    const double length = glm::length(quaternion);
+    if (!(length > 0.0 && std::isfinite(length)))
+      file_.refuse("a node's rotation is invalid", "a unit quaternion", fmt::format("one of length {:g}", length));
+    out = glm::mat4_cast(quaternion / length);
+  }
   if (const auto scale = list(node, "scale", 3); !scale.empty())
     for (int axis = 0; axis < 3; ++axis) out[axis] *= scale[static_cast<std::size_t>(axis)];
   if (const auto move = list(node, "translation", 3); !move.empty()) out[3] = {move[0], move[1], move[2], 1.0};
@@ -147,14 +158,27 @@ void Gltf::take(const Json& primitive, std::size_t node) {
   const auto attributes = primitive.find("attributes");
   if (attributes == primitive.end() || !attributes->is_object())
     file_.refuse("a primitive has no attributes", "POSITION and others", "none");
-  const auto numbers = [&](const std::string& name, std::size_t width) {
-    return file_.numbers(file_.number(*attributes, name.c_str(), "a primitive of Gaussians"), width, name);
+  /// `integers`: component types besides float; those of fractions must be normalized.
+  const auto numbers = [&](const std::string& name, std::size_t width, const std::vector<int>& integers = {},
+                           bool fractions = false) {
+    GltfNumbers out = file_.numbers(file_.number(*attributes, name.c_str(), "a primitive of Gaussians"), width, name);
+    const bool integer = std::ranges::find(integers, out.type) != integers.end() && (out.normalized || !fractions);
+    if (!integer && (out.type != kGltfFloat || out.normalized))
+      file_.refuse(name + " has an invalid componentType",
+                   fmt::format("5126{}{}",
+                               integers.empty() ? ""
+                               : fractions      ? ", or normalized "
+                                                : ", ",
+                               fmt::join(integers, ", ")),
+                   fmt::format("{}{}", out.type, out.normalized ? " normalized" : ""));
+    return out;
   };
   const std::string prefix = std::string(kExtension) + ":";
-  GltfSplats splats{.position = numbers("POSITION", 3),
-                    .rotation = numbers(prefix + "ROTATION", 4),
-                    .scale = numbers(prefix + "SCALE", 3),
-                    .opacity = numbers(prefix + "OPACITY", 1),
+  const std::vector<int> any{5120, 5121, 5122, 5123};
+  GltfSplats splats{.position = numbers("POSITION", 3, quantised_ ? any : std::vector<int>{}),
+                    .rotation = numbers(prefix + "ROTATION", 4, {5120, 5122}, true),
+                    .scale = numbers(prefix + "SCALE", 3, any),
+                    .opacity = numbers(prefix + "OPACITY", 1, {5121, 5123}, true),
                     .harmonics = {},
                     .node = node};
   for (int degree = 0; degree <= kMostDegree; ++degree) {
@@ -244,7 +268,7 @@ void Gltf::read() {
   if (logarithms_)
     to_.remarks.emplace_back(
         "some scales are negative: all are read as logarithms, as drafts of KHR_gaussian_splatting stored them");
-  if (others_ > 0) to_.remarks.push_back(fmt::format("{} primitives that are no Gaussians are not drawn", others_));
+  if (others_ > 0) to_.remarks.push_back(fmt::format("{} primitives other than Gaussians are not drawn", others_));
   GaussianRows rows(to_, to_.source);
   for (const GltfSplats& splats : found_) add(splats, rows);
   rows.end();

@@ -16,7 +16,7 @@ bool is_gltf(std::string_view head);
 /// without such primitives.
 void read_gltf(const std::string& bytes, GaussianCloud& to);
 
-/// A .glb of floats with the kernel `ellipse`; COLOR_0 shows it as points where the extension is not known.
+/// A .glb of floats with the kernel `ellipse`. Viewers without the extension show COLOR_0 as points.
 std::string glb_bytes(const GaussianCloud& cloud);
 
 }  // namespace fastsplat::scene

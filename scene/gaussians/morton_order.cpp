@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 namespace fastsplat::scene {
@@ -21,17 +20,15 @@ std::uint64_t spread(std::uint64_t bits) {
 }  // namespace
 
 std::vector<std::size_t> morton_order(const GaussianCloud& cloud) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const Gaussian& one : cloud.gaussians)
-    low = glm::min(low, glm::dvec3(one.position)), high = glm::max(high, glm::dvec3(one.position));
   std::vector<std::uint64_t> codes(cloud.gaussians.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    constexpr double kMost = (1 << 21) - 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double size = high[axis] - low[axis];
-      const double share =
-          size > 0.0 ? (static_cast<double>(cloud.gaussians[i].position[axis]) - low[axis]) / size : 0.0;
-      codes[i] |= spread(static_cast<std::uint64_t>(share * kMost)) << static_cast<unsigned>(axis);
+  std::vector<float> sorted(codes.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(cloud.gaussians, sorted.begin(), [axis](const Gaussian& one) { return one.position[axis]; });
+    std::ranges::sort(sorted);
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      constexpr std::uint64_t kSteps = std::uint64_t{1} << 21U;
+      const auto rank = std::ranges::lower_bound(sorted, cloud.gaussians[i].position[axis]) - sorted.begin();
+      codes[i] |= spread(static_cast<std::uint64_t>(rank) * kSteps / sorted.size()) << static_cast<unsigned>(axis);
     }
   }
   std::vector<std::size_t> order(codes.size());

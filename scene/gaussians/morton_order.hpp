@@ -8,7 +8,8 @@
 
 namespace fastsplat::scene {
 
-/// The Gaussians along a Morton curve of 21 bits an axis through their bounding box; equal places keep their order.
+/// The Gaussians along a Morton curve through the ranks of their coordinates, so that outliers do not coarsen it. Equal
+/// places keep their order.
 std::vector<std::size_t> morton_order(const GaussianCloud& cloud);
 
 }  // namespace fastsplat::scene

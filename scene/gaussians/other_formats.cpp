@@ -40,7 +40,7 @@ constexpr std::array kForeignFormats{
 
 /// The ending that matches a file's content, or nullptr.
 const char* ending_by_content(std::string_view head, const std::string& ending) {
-  if (is_gzip(head)) return ".gz";
+  if (is_gzip(head)) return ending == ".spz" ? nullptr : ".gz";  // its reader reports the damage
   if (head.starts_with("PK\x03\x04")) {
     // Archives of checkpoints are recognised by their endings alone.
     return std::ranges::find(kForeignFormats, ending, &ForeignFormat::ending) == kForeignFormats.end() ? ".zip"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In the lab's page, instead of the readers whose libraries WebAssembly does not have.
+// Replaces, in the lab's page, the readers whose libraries WebAssembly lacks.
 #include "base/error.hpp"
 #include "scene/gaussians/packed_bytes.hpp"
 #include "scene/gaussians/sog_file.hpp"

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scene/gaussians/gaussian_cloud.hpp"
+#include "scene/gaussians/stored_range.hpp"
 
 namespace fastsplat::scene {
 
@@ -19,8 +20,9 @@ bool is_ply(std::string_view head);
 void read_ply(const std::string& text, GaussianCloud& to);
 
 enum class PlyText { Binary, Ascii };
-/// Floats, little-endian or as text, with the normals that viewers expect. Scales are clamped to at least 1e-10 and
-/// opacities to 1e-6..1-1e-6, so that floats hold their logarithms.
+inline constexpr StoredRange kPlyLogScale{-23.025850929940457, 88.7228, 1e-6};  ///< from 1e-10 to the largest float
+/// Floats, little-endian or as text, with the normals that viewers expect. Opacities are clamped to 1e-6..1-1e-6, so
+/// that floats hold their logits.
 std::string ply_bytes(const GaussianCloud& cloud, PlyText text = PlyText::Binary);
 
 /// Header lines of what read_ply follows: the vertical axis, anti-aliasing, linear colours.

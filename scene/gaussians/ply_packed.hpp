@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scene/gaussians/gaussian_rows.hpp"
 #include "scene/gaussians/ply_rows.hpp"
+#include "scene/gaussians/stored_range.hpp"
 
 namespace fastsplat::scene {
 
@@ -24,9 +26,14 @@ inline std::uint32_t packed_byte_of_harmonic(double value) {
   return static_cast<std::uint32_t>(std::clamp(std::floor((value / 8.0 + 0.5) * 256.0), 0.0, 255.0));
 }
 
-/// A compressed file, its Gaussians in Morton order, so that those of a chunk are near each other. Harmonics are
-/// clamped to -4..4.
+/// What is written without clamping. The bounds of a chunk are floats, and its extremes coarsen the steps of the
+/// others.
+inline constexpr StoredRange kPackedLogScale{-20.0, 20.0, 1e-6}, kPackedColour{-3.5, 4.5, 1e-6},
+    kPackedHarmonic{-4.0, 4.0, 0.0};
+/// A compressed file, its Gaussians in Morton order, so that those of a chunk are near each other.
 std::string packed_ply_bytes(const GaussianCloud& cloud);
+/// How far this moves each Gaussian.
+std::vector<double> packed_ply_rounding(const GaussianCloud& cloud);
 
 /// Whether the vertices are packed words.
 bool is_packed(const PlyHeader& header);

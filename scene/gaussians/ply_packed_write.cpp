@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -20,23 +21,29 @@ namespace {
 using Bounded = std::array<glm::dvec3, 3>;
 
 Bounded bounded_of(const GaussianCloud& cloud, std::size_t i) {
-  constexpr double kFarthest = 20.0;  // bounds are floats, and a scale may be 0
   const Gaussian& one = cloud.gaussians[i];
-  return {glm::dvec3(one.position), glm::clamp(glm::log(glm::dvec3(one.scale)), -kFarthest, kFarthest),
-          0.5 + kConstantHarmonic * glm::dvec3(cloud.harmonics_of(i)[0])};
+  Bounded out{glm::dvec3(one.position), glm::log(glm::dvec3(one.scale)),
+              0.5 + kConstantHarmonic * glm::dvec3(cloud.harmonics_of(i)[0])};
+  for (int k = 0; k < 3; ++k) {
+    out[1][k] = kPackedLogScale.clamp(out[1][k]);
+    out[2][k] = kPackedColour.clamp(out[2][k]);
+  }
+  return out;
 }
 
 /// Bounds as the file has them.
 struct PackedBounds {
   std::array<glm::vec3, 3> low{}, high{};
 
-  PackedBounds() {
+  /// Of the chunk that begins at `first`.
+  PackedBounds(const GaussianCloud& cloud, const std::vector<std::size_t>& order, std::size_t first) {
     low.fill(glm::vec3(std::numeric_limits<float>::infinity()));
     high.fill(glm::vec3(-std::numeric_limits<float>::infinity()));
-  }
-  void take(const Bounded& values) {
-    for (std::size_t k = 0; k < values.size(); ++k)
-      low[k] = glm::min(low[k], glm::vec3(values[k])), high[k] = glm::max(high[k], glm::vec3(values[k]));
+    for (std::size_t i = first; i < std::min(first + kPackedChunk, order.size()); ++i) {
+      const Bounded values = bounded_of(cloud, order[i]);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        low[k] = glm::min(low[k], glm::vec3(values[k])), high[k] = glm::max(high[k], glm::vec3(values[k]));
+    }
   }
   std::uint32_t step(const Bounded& values, std::size_t k, int axis, unsigned bits) const {
     const auto least = static_cast<double>(low[k][axis]), size = static_cast<double>(high[k][axis]) - least;
@@ -81,8 +88,7 @@ std::string packed_ply_bytes(const GaussianCloud& cloud) {
   std::size_t chunks = 0;
   for (std::size_t first = 0; first < order.size(); first += kPackedChunk, ++chunks) {
     const std::size_t end = std::min(first + kPackedChunk, order.size());
-    PackedBounds chunk;
-    for (std::size_t i = first; i < end; ++i) chunk.take(bounded_of(cloud, order[i]));
+    const PackedBounds chunk(cloud, order, first);
     for (std::size_t k = 0; k < 3; ++k)
       for (const glm::vec3& bound : {chunk.low[k], chunk.high[k]})
         for (int axis = 0; axis < 3; ++axis) append_float(bounds, bound[axis]);
@@ -102,6 +108,26 @@ std::string packed_ply_bytes(const GaussianCloud& cloud) {
     }
   }
   return header_of(cloud, chunks) + bounds + words + rest;
+}
+
+std::vector<double> packed_ply_rounding(const GaussianCloud& cloud) {
+  constexpr std::array kBits{11U, 10U, 11U};
+  const std::vector<std::size_t> order = morton_order(cloud);
+  std::vector<double> out(order.size());
+  for (std::size_t first = 0; first < order.size(); first += kPackedChunk) {
+    const PackedBounds chunk(cloud, order, first);
+    const glm::dvec3 low(chunk.low[0]), size = glm::dvec3(chunk.high[0]) - low;
+    for (std::size_t i = first; i < std::min(first + kPackedChunk, order.size()); ++i) {
+      const Bounded values = bounded_of(cloud, order[i]);
+      glm::dvec3 written;
+      for (int axis = 0; axis < 3; ++axis) {
+        const unsigned bits = kBits[static_cast<std::size_t>(axis)];
+        written[axis] = low[axis] + size[axis] * chunk.step(values, 0, axis, bits) / ((1U << bits) - 1U);
+      }
+      out[order[i]] = glm::distance(values[0], written);
+    }
+  }
+  return out;
 }
 
 }  // namespace fastsplat::scene

@@ -23,7 +23,7 @@ std::vector<std::string> written_names(int degree) {
 }
 
 std::vector<float> written_row(const Gaussian& one, std::span<const glm::vec3> harmonics) {
-  constexpr double kLeastScale = 1e-10, kLeastShare = 1e-6;
+  constexpr double kLeastShare = 1e-6;
   std::vector<float> row{one.position.x, one.position.y, one.position.z, 0.0F, 0.0F, 0.0F};
   for (int c = 0; c < 3; ++c) row.push_back(harmonics[0][c]);
   for (int c = 0; c < 3; ++c) {
@@ -32,7 +32,7 @@ std::vector<float> written_row(const Gaussian& one, std::span<const glm::vec3> h
   const double opacity = std::clamp(static_cast<double>(one.opacity), kLeastShare, 1.0 - kLeastShare);
   row.push_back(static_cast<float>(std::log(opacity / (1.0 - opacity))));
   for (int i = 0; i < 3; ++i)
-    row.push_back(static_cast<float>(std::log(std::max(static_cast<double>(one.scale[i]), kLeastScale))));
+    row.push_back(static_cast<float>(kPlyLogScale.clamp(std::log(static_cast<double>(one.scale[i])))));
   for (int i = 0; i < 4; ++i) row.push_back(one.rotation[i]);
   return row;
 }

@@ -130,7 +130,7 @@ void Sog::read(const std::string& text) {
     meta_ = parse_json<Json>(text);
   } catch (const Json::parse_error& error) {
     parts_.refuse("meta.json is not valid JSON", {}, fmt::format("an error at byte {}", error.byte));
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     parts_.refuse("meta.json is not valid JSON", {}, error.what());
   }
   if (!meta_.is_object()) parts_.refuse("meta.json is not valid", "an object", meta_.type_name());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a SOG scene: in a zip archive, or in the folder of its meta.json. And its pictures.
+// The files of a SOG scene, in a zip archive or in the folder of its meta.json, and its pictures.
 #pragma once
 
 #include <cstddef>

@@ -6,10 +6,12 @@
 #include <string>
 
 #include "scene/gaussians/gaussian_cloud.hpp"
+#include "scene/gaussians/stored_range.hpp"
 
 namespace fastsplat::scene {
 
 inline constexpr std::size_t kSplatBytes = 32;
+inline constexpr StoredRange kSplatColour{0.0, 1.0, 0.5 / 255.0};
 
 /// Fills `to`, whose source names the file.
 void read_splat(const std::string& bytes, GaussianCloud& to);

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "scene/gaussians/byte_words.hpp"
+#include "scene/gaussians/harmonics.hpp"
 #include "scene/gaussians/smallest_three.hpp"
+#include "scene/gaussians/stored_range.hpp"
 
 namespace fastsplat::scene::spz {
 
@@ -27,6 +29,11 @@ inline Parts parts_of(std::uint32_t version, std::uint32_t degree) {
   return {.rotation = version == 2 ? std::size_t{3} : std::size_t{4},
           .harmonics = std::size_t{3} * ((degree + 1) * (degree + 1) - 1)};
 }
+
+/// What bytes hold, with half a step as slack.
+inline constexpr double kColourReach = 0.5 * kConstantHarmonic / kColourShare;
+inline constexpr StoredRange kLogScale{-10.0, 255.0 / 16.0 - 10.0, 0.5 / 16.0},
+    kColour{0.5 - kColourReach, 0.5 + kColourReach, kColourReach / 255.0}, kHarmonic{-1.0, 127.0 / 128.0, 4.0 / 128.0};
 
 inline double scale_of(std::uint32_t byte) { return std::exp(byte / 16.0 - 10.0); }
 inline std::uint32_t byte_of_scale(double scale) { return nearest_step((std::log(scale) + 10.0) * 16.0, 255.0); }

@@ -38,7 +38,7 @@ class Spz {
   Header header_in(std::string_view start) const;
   Payload from_gzip(const Header& header);
   Payload from_frames(const Header& header);
-  /// Follows records of extensions: the axes, or a remark.
+  /// Applies the axes that an extension record declares; counts other records in a remark.
   void read_records(std::string_view records);
   void read_rows(const Header& header, const Payload& payload);
 
@@ -187,7 +187,7 @@ void Spz::read_rows(const Header& header, const Payload& payload) {
 
 void Spz::read() {
   const bool packed = is_gzip(bytes_);
-  const Header header = header_in(packed ? start_of_gzip(bytes_, spz::kHeaderBytes) : bytes_);
+  const Header header = header_in(packed ? gunzip(bytes_, spz::kHeaderBytes, where_) : bytes_);
   if (packed != (header.version < 4))
     refuse("the version does not match the compression", packed ? "2 or 3 in gzip" : "4 outside gzip",
            fmt::format("{}", header.version));

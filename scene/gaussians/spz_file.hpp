@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/gaussians/gaussian_cloud.hpp"
 
@@ -18,5 +19,7 @@ void read_spz(const std::string& bytes, GaussianCloud& to);
 
 /// Version 3. Positions in steps of 2^-12, or coarser if the scene reaches beyond +-2048.
 std::string spz_bytes(const GaussianCloud& cloud);
+/// How far this moves each Gaussian.
+std::vector<double> spz_rounding(const GaussianCloud& cloud);
 
 }  // namespace fastsplat::scene

@@ -12,7 +12,7 @@
 namespace fastsplat::scene {
 namespace {
 
-/// As Niantic's encoder, unless positions reach beyond 24 bits of that: then as many as fit.
+/// 12, as Niantic's encoder writes, or fewer if the farthest position needs the room.
 int fraction_bits_for(const GaussianCloud& cloud) {
   constexpr double kReach = (1 << 23) - 1;
   double most = 0.0;
@@ -62,6 +62,16 @@ std::string spz_bytes(const GaussianCloud& cloud) {
                        (cloud.antialiased ? spz::kAntialiased : 0U) << 16U);
   for (const std::string* part : {&positions, &opacities, &colours, &scales, &rotations, &rest}) out += *part;
   return gzip(out);
+}
+
+std::vector<double> spz_rounding(const GaussianCloud& cloud) {
+  const double steps = std::ldexp(1.0, fraction_bits_for(cloud));
+  std::vector<double> out;
+  for (const Gaussian& one : cloud.gaussians) {
+    const glm::dvec3 place(one.position);
+    out.push_back(glm::distance(place, glm::round(place * steps) / steps));
+  }
+  return out;
 }
 
 }  // namespace fastsplat::scene

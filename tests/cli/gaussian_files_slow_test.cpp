@@ -84,6 +84,23 @@ TEST(GaussianFilesRun, StrictRefusesWhatIsDropped) {
   }
 }
 
+TEST(GaussianFilesRun, ConvertCountsWhatIsClamped) {
+  const TempFolder folder;
+  const std::string file = folder / "wide.ply";
+  folder.write("wide.ply",
+               "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+               "property float opacity\nproperty float scale_0\nproperty float scale_1\nproperty float scale_2\n"
+               "property float rot_0\nproperty float rot_1\nproperty float rot_2\nproperty float rot_3\n"
+               "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nend_header\n"
+               "0 0 0 1 -1 -1 9 1 0 0 0 0 0 0\n1 0 0 1 -1 -1 -1 1 0 0 0 0 0 0\n");
+  const Result converted = fastsplat({"gaussians", "convert", file, folder / "a.spz", "--json", "-"});
+  expect_success(converted);
+  EXPECT_EQ(Json::parse(converted.out)["lost"].size(), 1U);
+  EXPECT_NE(converted.err.find("a.spz: .spz holds scales from 4.54e-05 to 379: those of 1 of 2 Gaussians"),
+            std::string::npos)
+      << converted.err;
+}
+
 TEST(GaussianFilesRun, MisuseIsOneLine) {
   const TempFolder folder;
   expect_error(fastsplat({"gaussians", "convert", "shells:8", folder / "a.xyz"}), 2,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of 3-D Gaussians of all formats: read or refused; Gaussians that were read are valid, and as many are in the
-// file that is written of them.
+// Files of 3-D Gaussians of every format are read or refused. What is read is valid, and a file written from it has as
+// many Gaussians.
 #include <array>
 
 #include "scene/gaussians/gaussian_file.hpp"

@@ -15,6 +15,9 @@
 namespace fastsplat::scene {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
+
 constexpr double kFloat = 1e-6;  // logarithms and logits there and back
 
 void figure(const std::string& name, double value) { std::printf("[figure] %s = %.3g\n", name.c_str(), value); }
@@ -125,6 +128,60 @@ TEST(SplatFile, WrittenAndReadAgain) {
   save_gaussians(read, file.path());
   EXPECT_LT(difference(load_gaussians(file.path()), read), 2.0 / 128.0);
   EXPECT_EQ(first.size(), bytes_of(file.path()).size());
+}
+
+// Each writer counts what it clamps.
+TEST(GaussianFiles, ClampedValuesAreCounted) {
+  GaussianCloud cloud = make_synthetic_gaussians("cloud:40");
+  const auto each = static_cast<std::size_t>(harmonic_count(cloud.degree));
+  const auto lost = [&cloud](const char* name) {
+    std::string all;
+    for (const std::string& text : lost_in_gaussian_file(cloud, name)) all += text + "\n";
+    return all;
+  };
+  cloud.up = {}, cloud.antialiased = cloud.linear = false;
+  for (const char* name : {"a.ply", "a.compressed.ply", "a.spz", "a.glb"}) EXPECT_EQ(lost(name), "") << name;
+  cloud.gaussians[3].scale.y = 0.0F;
+  cloud.gaussians[4].scale.z = 1e12F;
+  cloud.harmonics[5 * each].x = -20.0F;
+  for (const std::size_t i : {6U, 7U, 8U}) cloud.harmonics[i * each + 3].z = 4.1F;
+  const std::string packed = lost("a.compressed.ply"), spz = lost("a.spz"), splat = lost("a.splat");
+  std::printf("%s%s%s%s", packed.c_str(), spz.c_str(), splat.c_str(), lost("a.ply").c_str());
+  EXPECT_THAT(packed, HasSubstr("holds scales from 2.06e-09 to 4.85e+08: those of 2 of 40 Gaussians"));
+  EXPECT_THAT(packed, HasSubstr("holds colours from -3.5 to 4.5: those of 1 of 40 Gaussians"));
+  EXPECT_THAT(packed, HasSubstr("holds harmonics from -4 to 4: those of 3 of 40 Gaussians"));
+  EXPECT_THAT(spz, HasSubstr("holds scales from 4.54e-05 to 379: those of 2 of 40 Gaussians"));
+  EXPECT_THAT(spz, HasSubstr("holds colours from -0.44 to 1.44: those of 1 of 40 Gaussians"));
+  EXPECT_THAT(spz, HasSubstr("holds harmonics from -1 to 0.992: those of 3 of 40 Gaussians"));
+  EXPECT_THAT(splat, HasSubstr("holds colours from 0 to 1: those of 1 of 40 Gaussians"));
+  EXPECT_THAT(splat, Not(HasSubstr("scales")));
+  EXPECT_THAT(lost("a.ply"), HasSubstr("holds scales from 1e-10 to 3.4e+38: those of 1 of 40 Gaussians"));
+  EXPECT_EQ(lost("a.glb"), "");
+  // What was read from a file, the same format holds.
+  for (const char* ending : {".ply", ".compressed.ply", ".spz", ".splat"}) {
+    const TestFile file(ending, "");
+    save_gaussians(cloud, file.path());
+    cloud = load_gaussians(file.path());
+    EXPECT_THAT(lost(file.path().c_str()), Not(HasSubstr("clamped")));
+  }
+}
+
+// A distant Gaussian leaves .spz few bits for the others' positions.
+TEST(GaussianFiles, MovedGaussiansAreCounted) {
+  GaussianCloud cloud = make_synthetic_gaussians("cloud:400");
+  cloud.gaussians[9].position.x = 1e6F;
+  const TestFile file(".spz", "");
+  save_gaussians(cloud, file.path());
+  const GaussianCloud read = load_gaussians(file.path());
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    const Gaussian& one = cloud.gaussians[i];
+    const float off = glm::distance(one.position, read.gaussians[i].position);
+    moved += off > std::max({one.scale.x, one.scale.y, one.scale.z}) ? 1 : 0;
+  }
+  EXPECT_GT(moved, 20U);
+  const auto lost = lost_in_gaussian_file(cloud, file.path());
+  EXPECT_THAT(lost, ::testing::Contains(HasSubstr(".spz moves " + std::to_string(moved) + " of 400 Gaussians")));
 }
 
 TEST(SplatFile, OneByHand) {

@@ -19,6 +19,7 @@ namespace fastsplat::scene {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -84,7 +85,7 @@ TEST(Gltf, IsWrittenAndReadWithoutLoss) {
   }
 }
 
-// y points up and x to the left, so both change sign; what is odd in one of them, too.
+// y points up and x to the left, so both change sign, and so do harmonics that are odd in one of them.
 TEST(Gltf, AxesAreThoseOfTheFormat) {
   const GaussianCloud cloud = make_synthetic_gaussians("shells:50");
   const Chunks chunks = written(cloud);
@@ -128,7 +129,21 @@ TEST(Gltf, TextWithDataAndWithAFileBeside) {
     EXPECT_THAT(refusal_of(".gltf", chunks.json.dump()), HasSubstr("in the header's folder"));
   }
   chunks.json["buffers"][0]["uri"] = "http://example.org/a.bin";
-  EXPECT_THROW(read(".gltf", chunks.json.dump()), UserError);
+  EXPECT_THAT(refusal_of(".gltf", chunks.json.dump()),
+              AllOf(HasSubstr("remote uri"), HasSubstr("http://example.org/a.bin")));
+  chunks.json["buffers"][0]["uri"] = "none.bin";
+  EXPECT_THAT(refusal_of(".gltf", chunks.json.dump()), AllOf(HasSubstr("is missing"), HasSubstr("none.bin")));
+}
+
+// Positions may be integers only with KHR_mesh_quantization.
+TEST(Gltf, QuantisedPositions) {
+  Chunks chunks = written(make_synthetic_gaussians("cloud:40"));
+  chunks.json["accessors"][0]["componentType"] = 5122;
+  EXPECT_THAT(refusal_of(".glb", glb(chunks)), HasSubstr("POSITION has an invalid componentType"));
+  chunks.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  std::int16_t x = 0;
+  std::memcpy(&x, chunks.binary.data(), sizeof x);
+  EXPECT_EQ(read(".glb", glb(chunks)).gaussians[0].position.x, -static_cast<float>(x));
 }
 
 // A rotation as signed bytes and an opacity as unsigned shorts, in one interleaved view.
@@ -244,7 +259,8 @@ TEST(Gltf, DamageIsNamed) {
       {bytes.substr(0, bytes.size() - 4), "shorter than its binary chunk"},
       {patched(bytes, 20, "["), "invalid JSON"},
       {patched(bytes, 20, "{\"a\":" + std::string(100, '[')), "nested more than"},
-      {changed([](Json& json) { json["nodes"] = 3; }), "no nodes"},
+      {patched(bytes, 20, "{\"a\":1e999,"), "number overflow"},
+      {changed([](Json& json) { json["nodes"] = 3; }), "no nodes ("},
       {changed([](Json& json) { json["scene"] = 7; }), "scenes[7]"},
       {changed([](Json& json) { json["scene"] = -1; }), "no valid scene"},
       {changed([](Json& json) { json["nodes"][0]["children"] = {0}; }), "two parents"},
@@ -257,7 +273,22 @@ TEST(Gltf, DamageIsNamed) {
       {changed([](Json& json) { json["accessors"][0]["count"] = 29; }), "differ in number"},
       {changed([](Json& json) { json["accessors"][0]["byteOffset"] = 999999999; }), "outside its buffer"},
       {changed([](Json& json) { json["accessors"][0]["type"] = "VEC4"; }), "wrong shape"},
-      {changed([](Json& json) { json["accessors"][0]["componentType"] = 5127; }), "componentType"},
+      {changed([](Json& json) { json["accessors"][0]["componentType"] = 5127; }), "unknown componentType"},
+      {changed([](Json& json) { json["accessors"][0]["normalized"] = true; }), "5126 normalized"},
+      {changed([](Json& json) { json["accessors"][2]["componentType"] = 5120; }),
+       "ROTATION has an invalid componentType"},
+      {changed([](Json& json) { json["accessors"][3]["componentType"] = 5125; }), "SCALE has an invalid componentType"},
+      {changed([](Json& json) { json["accessors"][4]["componentType"] = 5121; }),
+       "OPACITY has an invalid componentType"},
+      {changed([](Json& json) { json["accessors"][5]["componentType"] = 5122; }),
+       "COEF_0 has an invalid componentType"},
+      {changed([](Json& json) { json["asset"]["version"] = "1.0"; }), "asset.version"},
+      {changed([](Json& json) { json["asset"]["version"] = 2; }), "asset.version"},
+      {changed([](Json& json) { json.erase("asset"); }), "asset.version"},
+      {changed([](Json& json) {
+         json["nodes"][0]["rotation"] = {0, 0, 0, 0};
+       }),
+       "rotation is invalid"},
       {changed([](Json& json) { json["accessors"][0]["sparse"] = Json::object(); }), "sparse"},
       {changed([](Json& json) { json["accessors"][0].erase("bufferView"); }), "sparse or has no data"},
       {changed([](Json& json) { json["bufferViews"][0]["byteLength"] = ~std::uint64_t{0}; }), "outside its buffer"},

@@ -2,6 +2,7 @@
 // Files of Gaussians written by tests, byte by byte.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -61,6 +62,10 @@ void print(const std::string& name, const Apart& apart);
 /// The message of the UserError (Input) with which a file of these bytes is refused. Fails the test if it is read, or
 /// if the message is not one line that names the file.
 std::string refusal_of(const std::string& ending, const std::string& bytes);
+
+/// A whole number in `bytes` little-endian bytes.
+std::string number(std::uint64_t value, unsigned bytes);
+std::string gzipped(const std::string& bytes);
 
 /// `bytes` at `at` replaced by others.
 std::string patched(std::string bytes, std::size_t at, const std::string& others);

@@ -18,11 +18,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string number(std::uint64_t value, unsigned bytes) {
-  std::string out;
-  for (unsigned i = 0; i < bytes; ++i) out.push_back(static_cast<char>((value >> (8 * i)) & 0xFFU));
-  return out;
-}
 std::string real(float value) { return number(std::bit_cast<std::uint32_t>(value), 4); }
 void put(std::string& to, std::size_t at, const std::string& bytes) { to.replace(at, bytes.size(), bytes); }
 

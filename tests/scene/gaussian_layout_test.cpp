@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text around the rows of a PLY, and files of formats other than PLY and .splat.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstdio>
 
@@ -91,20 +90,6 @@ TEST(GaussianLayout, ElementsBehindTheVerticesAreCounted) {
   EXPECT_THAT([&] { load_gaussians(more.path()); }, ::testing::ThrowsMessage<UserError>(HasSubstr("longer")));
 }
 
-std::string zipped(std::string bytes) {
-  std::string out(compressBound(bytes.size()) + 64, '\0');
-  z_stream stream{};
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
-
 std::string splat() {
   const TestFile file(".splat", "");
   save_gaussians(make_synthetic_gaussians("cloud:400"), file.path());
@@ -119,7 +104,7 @@ TEST(OtherFormats, AreNamedByContentAndByEnding) {
     std::vector<const char*> said;
   } files[] = {
       {"spz by ending", ".SPZ", "nothing", {"not an .spz file"}},
-      {"gzip", ".ply", zipped(twelve("ascii")), {"a gzip file", "gunzip"}},
+      {"gzip", ".ply", gzipped(twelve("ascii")), {"a gzip file", "gunzip"}},
       {"ksplat by ending", ".ksplat", "nothing", {"not a .ksplat file"}},
       {"sog named ply", ".ply", sog, {"no directory"}},
       {"sog by ending", ".sog", "nothing", {"no directory"}},

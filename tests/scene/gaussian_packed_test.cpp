@@ -102,6 +102,29 @@ std::string packed(const GaussianCloud& cloud, const Sizes& sizes = {}) {
   return header + "end_header\n" + bounds + words + bytes;
 }
 
+/// Half steps: of 1023 over positions of -1.5 to 1.5 and logarithms that differ by at most 5, of 255 over 1 (and
+/// colours a little beyond), of 256 over 8. Three components of a rotation each off by sqrt(2)/2046 and the fourth by
+/// as much again: the angle between is below 4e-3, and 1 minus its cosine below 1e-5.
+void expect_within_steps(const Apart& off) {
+  EXPECT_LT(off.position, 3.2 / 2046.0);
+  EXPECT_LT(off.scale, 5.0 / 2046.0);
+  EXPECT_LT(off.rotation, 1e-5);
+  EXPECT_LT(off.opacity, 0.51 / 255.0);
+  EXPECT_LT(off.colour, 0.6 / 255.0);
+  EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
+}
+
+/// The order in which it is written.
+GaussianCloud sorted(const GaussianCloud& cloud) {
+  GaussianCloud out = cloud;
+  out.gaussians.clear(), out.harmonics.clear();
+  for (const std::size_t i : morton_order(cloud)) {
+    out.gaussians.push_back(cloud.gaussians[i]);
+    for (const glm::vec3& harmonic : cloud.harmonics_of(i)) out.harmonics.push_back(harmonic);
+  }
+  return out;
+}
+
 // 300 Gaussians: a whole chunk and a part of one.
 TEST(PackedPly, IsReadToWithinItsSteps) {
   for (const char* name : {"shells:300", "cloud:300"}) {
@@ -114,15 +137,7 @@ TEST(PackedPly, IsReadToWithinItsSteps) {
       ASSERT_EQ(read.degree, cloud.degree);
       const Apart off = apart(cloud, read);
       print(std::string(name) + (coloured ? ", coloured bounds" : ", plain bounds"), off);
-      // Half steps: of 1023 over positions of -1.5 to 1.5 and logarithms that differ by at most 5, of 255 over 1 (and
-      // colours a little beyond), of 256 over 8. Three components of a rotation each off by sqrt(2)/2046 and the fourth
-      // by as much again: the angle between is below 4e-3, and 1 minus its cosine below 1e-5.
-      EXPECT_LT(off.position, 3.2 / 2046.0);
-      EXPECT_LT(off.scale, 5.0 / 2046.0);
-      EXPECT_LT(off.rotation, 1e-5);
-      EXPECT_LT(off.opacity, 0.51 / 255.0);
-      EXPECT_LT(off.colour, 0.6 / 255.0);
-      EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
+      expect_within_steps(off);
     }
   }
 }
@@ -137,29 +152,56 @@ TEST(PackedPly, IsWrittenToWithinItsSteps) {
     const GaussianCloud read = load_gaussians(file.path());
     EXPECT_TRUE(read.antialiased);
     EXPECT_EQ(read.up, cloud.up);
-    GaussianCloud sorted = cloud;
-    sorted.gaussians.clear(), sorted.harmonics.clear();
-    for (const std::size_t i : morton_order(cloud)) {
-      sorted.gaussians.push_back(cloud.gaussians[i]);
-      for (const glm::vec3& harmonic : cloud.harmonics_of(i)) sorted.harmonics.push_back(harmonic);
-    }
-    const Apart off = apart(sorted, read);
+    const Apart off = apart(sorted(cloud), read);
     print(std::string(name) + ", written", off);
     std::printf("[figure] %s: bytes a Gaussian = %.1f\n", name, double(bytes_of(file.path()).size()) / 700.0);
-    // As above; chunks along the curve are smaller than the scene.
-    EXPECT_LT(off.position, 3.2 / 2046.0);
-    EXPECT_LT(off.scale, 5.0 / 2046.0);
-    EXPECT_LT(off.rotation, 1e-5);
-    EXPECT_LT(off.opacity, 0.51 / 255.0);
-    EXPECT_LT(off.colour, 0.6 / 255.0);
-    EXPECT_LE(std::max(off.harmonic, off.harmonics), 4.0 / 256.0 + 1e-6);
+    expect_within_steps(off);
   }
 }
 
+// One Gaussian far away and one of absurd colour, and the widest and the narrowest: others lose what the page says.
+TEST(PackedPly, OutliersHarmOnlyTheirChunk) {
+  GaussianCloud cloud = make_synthetic_gaussians("cloud:6000");
+  const auto each = static_cast<std::size_t>(harmonic_count(cloud.degree));
+  cloud.gaussians[7].position.x = 1e30F;
+  cloud.harmonics[9 * each].x = 1e30F;
+  cloud.gaussians[11].scale = {1e30F, 0.0F, 1.0F};
+  const TestFile file(".compressed.ply", "");
+  const auto lost = lost_in_gaussian_file(cloud, file.path());
+  for (const std::string& text : lost) std::printf("%s\n", text.c_str());
+  ASSERT_EQ(lost.size(), 3U);
+  EXPECT_THAT(lost[0], HasSubstr("holds scales from 2.06e-09 to 4.85e+08: those of 1 of 6000 Gaussians were clamped"));
+  EXPECT_THAT(lost[1], HasSubstr("holds colours from -3.5 to 4.5: those of 1 of 6000 Gaussians were clamped"));
+  EXPECT_THAT(lost[2], HasSubstr("Gaussians by more than their own size"));
+  save_gaussians(cloud, file.path());
+  const GaussianCloud read = load_gaussians(file.path()), wanted = sorted(cloud);
+  std::size_t coarse = 0, moved = 0;
+  double colour = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < 6000; ++i) {
+    const Gaussian &one = wanted.gaussians[i], &other = read.gaussians[i];
+    const auto off = double(glm::distance(one.position, other.position));
+    coarse += off > 3.2 / 1023.0 ? 1 : 0;
+    moved += off > double(std::max({one.scale.x, one.scale.y, one.scale.z})) && off > 0.005 ? 1 : 0;
+    if (one.scale.x < 1e20F) scale = std::max(scale, double(glm::length(glm::log(one.scale) - glm::log(other.scale))));
+    const float ours = wanted.harmonics_of(i)[0].x, theirs = read.harmonics_of(i)[0].x;
+    if (ours < 1e20F) colour = std::max(colour, kConstantHarmonic * std::abs(double(ours) - double(theirs)));
+  }
+  std::printf("[figure] coarse positions = %zu, moved = %zu, colour = %.2g, log scale = %.2g\n", coarse, moved, colour,
+              scale);
+  EXPECT_LT(coarse, kTogether);
+  EXPECT_LE(moved, std::stoul(lost[2].substr(lost[2].find("moves ") + 6)));
+  EXPECT_LE(std::stoul(lost[2].substr(lost[2].find("moves ") + 6)), coarse);
+  EXPECT_LE(colour, 8.0 / 255.0);
+  EXPECT_LE(scale, std::sqrt(3.0) * 40.0 / 1023.0);
+}
+
 // Neighbours of the curve are neighbours in space: steps between them add up to far less than in the order of the file.
+// An outlier does not change that.
 TEST(PackedPly, MortonOrderKeepsNeighboursTogether) {
   const GaussianCloud cloud = make_synthetic_gaussians("cloud:3000");
-  const auto order = morton_order(cloud);
+  GaussianCloud distant = cloud;
+  distant.gaussians[7].position = glm::vec3(1e30F);
+  const auto order = morton_order(distant);
   std::vector<bool> seen(order.size());
   double along = 0.0, before = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -247,6 +247,7 @@ TEST(Sog, DamageIsNamed) {
       {without("quats.webp"), "lacks a file (expected quats.webp"},
       {with("meta.json", "{\"version\""), "not valid JSON"},
       {with("meta.json", std::string(100, '[')), "not valid JSON"},
+      {with("meta.json", "[1e999]"), "number overflow"},
       {with("meta.json", "[]"), "an object"},
       {with("sh0.webp", "RIFF1234WEBPVP8L"), "not a WebP picture"},
       {with("sh0.webp", whole.at("sh0.webp").substr(0, whole.at("sh0.webp").size() / 2)), "does not decode"},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPZ of versions 2, 3 and 4: packed here by an independent rule and read to within its steps; written; damaged.
 #include <gtest/gtest.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <cmath>
@@ -20,24 +19,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string number(std::uint64_t value, unsigned bytes) {
-  std::string out;
-  for (unsigned i = 0; i < bytes; ++i) out.push_back(static_cast<char>((value >> (8 * i)) & 0xFFU));
-  return out;
-}
-std::string gzipped(const std::string& bytes) {
-  std::string out(compressBound(bytes.size()) + 64, '\0');
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 std::string zstd(const std::string& bytes) {
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
   out.resize(ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 3));
@@ -239,6 +220,8 @@ TEST(Spz, DamageIsNamed) {
       {with(4, number(4, 4)), "does not match the compression"},
       {gzipped(head.substr(0, 12)), "header"},
       {packed.substr(0, packed.size() / 2), "truncated"},
+      {packed.substr(0, 12), "truncated"},  // before the first unpacked byte
+      {patched(packed, 10, std::string(40, '\xFF')), "damaged"},
       {patched(packed, packed.size() / 2, std::string(40, '\xFF')), "damaged"},
       {gzipped(head + std::string(3, '\0')), "shorter than its header"},
       // A bomb: a small file of zeros that says it is a scene.

@@ -68,10 +68,15 @@ Json to_json(const DeviceGaussians& device) {
     json.update(uncounted_json(device.report.in_tiles, device.report.records));
     return json;
   }
-  json["driver"] = {{"drawn", device.report.drawn},         {"vanished", device.report.vanished},
-                    {"saturated", device.report.saturated}, {"cut", device.report.cut},
-                    {"thin", device.report.thin},           {"in_tiles", device.report.in_tiles},
-                    {"records", device.report.records},     {"tiles", device.report.tiles}};
+  json["driver"] = {{"drawn", device.report.drawn},
+                    {"vanished", device.report.vanished},
+                    {"saturated", device.report.saturated},
+                    {"brightest", device.report.brightest},
+                    {"cut", device.report.cut},
+                    {"thin", device.report.thin},
+                    {"in_tiles", device.report.in_tiles},
+                    {"records", device.report.records},
+                    {"tiles", device.report.tiles}};
   if (device.units.fast + device.units.plain > 0) json["units"] = cli::to_json(device.units);
   auto& counts = json["counters"];
   device.counters.for_each(
@@ -102,6 +107,20 @@ std::string view_text(const scene::GaussianScene& scene) {
   return text + fmt::format(", low-pass {}, cutoff {}", description.low_pass, description.cutoff);
 }
 
+/// The flags of a configuration whose words hold such a colour.
+std::string brighter(const cmodel::Config& config, double brightest) {
+  const int bits =
+      std::min(static_cast<int>(std::floor(std::log2(brightest))) + 1, cmodel::find_key("colour.int_bits")->max);
+  std::string flags = fmt::format("--set colour.int_bits={}", bits);
+  const auto set = [&](const char* key, int from, int to) {
+    if (to != from) flags += fmt::format(" --set {}={}", key, to);
+  };
+  set("colour.frac_bits", config.colour_frac_bits, std::min(config.colour_frac_bits, 16 - bits));
+  set("sheet.int_bits", config.sheet_int_bits, std::max(config.sheet_int_bits, bits + config.radial_int_bits));
+  set("pixel.int_bits", config.pixel_int_bits, std::max(config.pixel_int_bits, bits));
+  return flags;
+}
+
 std::vector<Remark> remarks(const DeviceGaussians& device) {
   std::vector<Remark> said;
   const auto& report = device.report;
@@ -120,8 +139,8 @@ std::vector<Remark> remarks(const DeviceGaussians& device) {
   }
   if (report.saturated > 0) {
     said.push_back(
-        {Remark::Warning, fmt::format("{} Gaussians are brighter than the input format allows and were clamped",
-                                      grouped(report.saturated))});
+        {Remark::Warning, fmt::format("{} Gaussians are brighter than the input format allows and were clamped; use {}",
+                                      grouped(report.saturated), brighter(device.config, report.brightest))});
   }
   if (report.vanished > 0) {
     said.push_back({Remark::Note, fmt::format("{} Gaussians are too transparent for the input format and vanished",

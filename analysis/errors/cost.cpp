@@ -10,9 +10,9 @@ Cost cost(const cmodel::Config& c) {
   const double pixels = static_cast<double>(c.tile_width) * c.tile_height,
                lanes = static_cast<double>(c.lanes) * c.lanes, composited = c.composited_at_once();
   const double distance = c.radial_index_bits() + c.rlut_guard_bits + 1.0,
-               weight = c.radial_int_bits + c.radial_frac_bits, colour = c.colour_frac_bits,
+               weight = c.radial_int_bits + c.radial_frac_bits, colour = c.colour_bits(),
                sheet = c.sheet_int_bits + c.sheet_frac_bits, factor = c.opacity_frac_bits + 1.0,
-               unit = c.composite_frac_bits + 1.0, rest = c.opacity_remainder_bits(),
+               unit = c.composite_frac_bits + 1.0, shown = unit + c.colour_int_bits, rest = c.opacity_remainder_bits(),
                position = c.position_int_bits + c.position_frac_bits, out_word = c.pixel_int_bits + c.pixel_frac_bits;
   Cost out;
   // A table that all lanes read in the same cycle exists once per lane.
@@ -20,14 +20,14 @@ Cost cost(const cmodel::Config& c) {
                      + lanes * c.radial_entries * weight               // radial table
                      + composited * c.opacity_segments * 2.0 * factor  // factor table: start and fall of a segment
                      + 2.0 * pixels * 4.0 * sheet                      // two sheet buffers
-                     + pixels * 4.0 * std::max(unit, sheet);           // picture, or an X-ray's sums
+                     + pixels * 4.0 * std::max(shown, sheet);          // picture, or an X-ray's sums
   // Per splat: its position on the two axes. Per lane: q; four products and sums. Per composited pixel: the factor's
   // fall and its subtraction, four products with it, four with T, three sums and a difference. Per row: its output
   // pixels.
-  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) + composited * (2.0 * factor + 4.0 * unit) +
-                   c.lanes * 4.0 * out_word;
+  out.adder_bits = 2.0 * position + lanes * (distance + 4.0 * sheet) +
+                   composited * (2.0 * factor + unit + 3.0 * shown) + c.lanes * 4.0 * out_word;
   out.multiplier_bits =
-      lanes * 4.0 * colour * weight + composited * (factor * rest + 4.0 * sheet * factor + 4.0 * unit * unit);
+      lanes * 4.0 * colour * weight + composited * (factor * rest + 4.0 * sheet * factor + unit * (unit + 3.0 * shown));
   if (c.interpolates()) {  // the fall beside each word; a product and two sums a lane
     out.storage_bits += lanes * c.radial_entries * (weight + 1.0);
     out.multiplier_bits += lanes * (weight + 1.0) * c.rlut_guard_bits;

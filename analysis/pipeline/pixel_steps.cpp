@@ -25,6 +25,7 @@ PixelSteps::PixelSteps(const scene::Scene& scene, const cmodel::Config& config, 
              !driver::holds_densities(scene.description)),
       factor_(mixture.device(Step::Factor)),
       slab_(mixture.device(Step::Slab)),
+      bright_(scene.volume == nullptr),
       composite_(mixture.device(Step::Composite)),
       pixel_(mixture.device(Step::Pixel)),
       exposure_(xray_ && golden_units ? scene.xray_scale : 1.0),
@@ -33,8 +34,11 @@ PixelSteps::PixelSteps(const scene::Scene& scene, const cmodel::Config& config, 
       sum_(config, cmodel::Site::Sum),
       fall_(config, cmodel::Site::Fall),
       slab_word_(config, cmodel::Site::SlabColour),
+      slab_opacity_(config, cmodel::Site::SlabOpacity),
       added_word_(config, cmodel::Site::AddedColour),
+      added_opacity_(config, cmodel::Site::AddedOpacity),
       light_(config, cmodel::Site::Light),
+      absorbed_(config, cmodel::Site::Absorbed),
       over_(config, cmodel::Site::Over),
       pixel_out_(config, cmodel::Site::PixelOut),
       pixel_sum_(config, cmodel::Site::PixelSum),
@@ -62,14 +66,15 @@ RealSlab PixelSteps::slab(const golden::Sums& sums) const {
     const golden::Layer layer =
         golden::make_layer(sums, additive_ ? scene::SlabOpacity::Additive : scene::SlabOpacity::Exponential);
     out = {{layer.red, layer.green, layer.blue}, layer.alpha};
+    if (bright_) out = {{sums[0], sums[1], sums[2]}, sums[3]};
     if (!slab_) return out;
     for (std::size_t c = 0; c < 3; ++c) out.colour[c] = added_word_(sums[c]);
-    out.opacity = added_word_(sums[3]);
+    out.opacity = added_opacity_(sums[3]);
     return out;
   }
   const double f = factor(sums[3]);
   for (std::size_t c = 0; c < 3; ++c) out.colour[c] = slab_ ? slab_word_(sums[c] * f) : sums[c] * f;
-  out.opacity = slab_ ? slab_word_(sums[3] * f) : sums[3] * f;
+  out.opacity = slab_ ? slab_opacity_(sums[3] * f) : sums[3] * f;
   return out;
 }
 
@@ -85,7 +90,7 @@ bool PixelSteps::take(const golden::Sums& sheet, golden::Sums& pixel) const {
   const double transmittance = pixel[3];
   if (composite_) {
     for (std::size_t c = 0; c < 3; ++c) pixel[c] = over_.cut(pixel[c] + light_(transmittance * over.colour[c]));
-    pixel[3] = transmittance - light_(transmittance * over.opacity);
+    pixel[3] = transmittance - absorbed_(transmittance * over.opacity);
   } else {
     for (std::size_t c = 0; c < 3; ++c) pixel[c] += transmittance * over.colour[c];
     pixel[3] = transmittance * (1.0 - over.opacity);

@@ -41,9 +41,12 @@ class PixelSteps {
   bool frozen(double transmittance) const { return transmittance < freeze_below_; }
 
   bool xray_, additive_;
-  bool sheet_, factor_, slab_, composite_, pixel_;
+  bool sheet_, factor_, slab_;
+  bool bright_;  ///< real colours of additive slabs may exceed 1: Gaussians
+  bool composite_, pixel_;
   double exposure_, freeze_below_;
-  RealNarrowing sum_, fall_, slab_word_, added_word_, light_, over_, pixel_out_, pixel_sum_;
+  RealNarrowing sum_, fall_, slab_word_, slab_opacity_, added_word_, added_opacity_, light_, absorbed_, over_,
+      pixel_out_, pixel_sum_;
   std::vector<double> factors_;
   double segments_per_tau_, last_segment_;
 };

@@ -21,6 +21,7 @@ const std::vector<Subcommand>& all_subcommands() {
       subcommands::cycles,
       subcommands::errors,
       subcommands::errors_bound,
+      subcommands::errors_file,
       subcommands::errors_ranges,
       subcommands::errors_propose,
       subcommands::pixel,

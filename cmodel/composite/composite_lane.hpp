@@ -11,7 +11,7 @@
 
 namespace fastsplat::cmodel {
 
-/// State of one pixel. Mode 2: the four sums (U si.sf). Other modes: C_R, C_G, C_B (U 1.tf) and T (One.tf).
+/// State of one pixel. Mode 2: the four sums (U si.sf). Other modes: C_R, C_G, C_B (U 1+ci.tf) and T (One.tf).
 using PixelState = std::array<std::uint32_t, 4>;
 
 class CompositeLane {
@@ -25,7 +25,7 @@ class CompositeLane {
 
   bool frozen(const PixelState& pixel) const { return pixel[3] < freeze_below_; }
 
-  /// C_c after a slab of colour c_c (One.tf) under transmittance T.
+  /// C_c after a slab of colour c_c (Config::slab_format()) under transmittance T.
   template <class Observer>
   std::uint32_t over(std::uint32_t colour, std::uint32_t transmittance, std::int64_t slab, Observer& observer) const {
     return static_cast<std::uint32_t>(over_(colour + light_(transmittance * slab, observer), observer));

@@ -11,7 +11,7 @@
 
 namespace fastsplat::cmodel {
 
-/// Premultiplied colour and opacity of one slab at one pixel, One.tf.
+/// Premultiplied colour (Config::slab_format()) and opacity (One.tf) of one slab at one pixel.
 struct Slab {
   std::array<std::int64_t, 3> colour{};
   std::int64_t opacity = 0;

@@ -13,7 +13,7 @@ std::optional<FastPlan> fast_plan(const Config& config, const char** why_not) {
     return std::optional<FastPlan>{};
   };
   const Narrowing product = narrowing(config, Site::Product);
-  const int colour_bits = config.colour_frac_bits, weight_bits = config.radial_int_bits + config.radial_frac_bits;
+  const int colour_bits = config.colour_bits(), weight_bits = config.radial_int_bits + config.radial_frac_bits;
   const int sheet_bits = config.sheet_int_bits + config.sheet_frac_bits;
   const int dropped = product.dropped_bits();
   const std::int64_t largest_product = ((std::int64_t{1} << colour_bits) - 1) * ((std::int64_t{1} << weight_bits) - 1);

@@ -59,10 +59,12 @@ class Compositor {
       : tables_(tables),
         one_(hn::Set(D{}, tables.plan.one)),
         most_(hn::Set(D{}, tables.plan.most)),
+        most_slab_(hn::IfThenElse(hn::Eq(take(), hn::Zero(D{})), hn::Set(D{}, tables.plan.most_slab), one_)),
         freeze_(hn::Set(D{}, tables.plan.freeze_below)) {}
 
-  /// kSmall: every word of the job's slabs is below 1.0.
-  template <Rule kRule, bool kSmall>
+  /// Words of a job's slabs. Small: all below 1.0. One: at most 1.0. Wide: colours may exceed 1.0.
+  enum class Words { Small, One, Wide };
+  template <Rule kRule, Words kWords>
   void draw(const SplatJob& job, std::uint32_t* picture, std::size_t row) {
     const D d;
     constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(std::uint32_t), kEach = Spread<D>::kVectors;
@@ -82,8 +84,14 @@ class Compositor {
         const V before = hn::LoadU(d, out + v * kLanes), seen = hn::Broadcast<3>(before);
         const auto closed = hn::Lt(seen, freeze_);
         frozen_ = hn::Sub(frozen_, hn::VecFromMask(d, hn::And(closed, weighted)));
-        V light = narrowed(hn::Mul(seen, slab), tables_.plan.light);
-        if constexpr (!kSmall) {
+        V light;
+        if constexpr (kWords == Words::Wide) {
+          opaque_ = hn::Sub(opaque_, hn::VecFromMask(d, hn::Gt(slab, most_slab_)));
+          light = narrowed_product(seen, hn::Min(slab, most_slab_), tables_.plan.light);
+        } else {
+          light = narrowed(hn::Mul(seen, slab), tables_.plan.light);
+        }
+        if constexpr (kWords == Words::One) {
           opaque_ = hn::Sub(opaque_, hn::VecFromMask(d, hn::Gt(slab, one_)));
           // 1.0 times transmittance is transmittance; the product may not fit a lane.
           light = hn::IfThenElse(hn::Eq(hn::Min(slab, one_), one_), seen, light);
@@ -99,9 +107,11 @@ class Compositor {
   void draw(std::span<const SplatJob> jobs, std::uint32_t* picture, std::size_t row) {
     for (const SplatJob& job : jobs) {
       if (is_small(tables_, std::max({job.colour[0], job.colour[1], job.colour[2], job.colour[3]})))
-        draw<kRule, true>(job, picture, row);
+        draw<kRule, Words::Small>(job, picture, row);
+      else if (tables_.plan.wide)
+        draw<kRule, Words::Wide>(job, picture, row);
       else
-        draw<kRule, false>(job, picture, row);
+        draw<kRule, Words::One>(job, picture, row);
     }
   }
   void count(SampleCounts& counts) const {
@@ -127,7 +137,7 @@ class Compositor {
 
   const SampleTables& tables_;
   const Spread<D> spread_;
-  const V one_, most_, freeze_;
+  const V one_, most_, most_slab_, freeze_;
   V frozen_ = hn::Zero(D{}), opaque_ = hn::Zero(D{}), bright_ = hn::Zero(D{});
 };
 

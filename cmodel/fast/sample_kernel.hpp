@@ -32,7 +32,7 @@ struct SampleCounts {
 };
 
 /// Composites the footprints one after the other; none reaches beyond the tile. A pixel of the picture has the words
-/// C_R, C_G, C_B (U 1.tf) and T (One.tf); rows are `row` pixels apart. Pixels after a footprint's columns, up to
+/// C_R, C_G, C_B (U 1+ci.tf) and T (One.tf); rows are `row` pixels apart. Pixels after a footprint's columns, up to
 /// pitch_of(columns), are written unchanged.
 void composite_samples(const SampleTables& tables, bool exponential, std::span<const SplatJob> jobs,
                        std::uint32_t* picture, std::size_t row, SampleCounts& counts);

@@ -40,6 +40,8 @@ std::optional<SamplePlan> sample_plan(const Config& config, const FastPlan& plan
   out.light = rounded(light);
   out.one = std::uint32_t{1} << config.composite_frac_bits;
   out.most = static_cast<std::uint32_t>(config.composited_format().max);
+  out.wide = config.colour_int_bits > 0;
+  out.most_slab = static_cast<std::uint32_t>(config.slab_format().max);
   out.freeze_below = static_cast<std::uint32_t>(config.freeze_below);
   return out;
 }

@@ -35,7 +35,7 @@ TileUnit<T>::TileUnit(const FrameTables& tables, PixelSink& pixels, Counts count
       counts_(counts == Counts::All),
       slots_(1) {
   compositor_.opacity() = tables.opacity;
-  const std::uint64_t brightest = (std::uint64_t{1} << tables.config.colour_frac_bits) - 1;
+  const std::uint64_t brightest = static_cast<std::uint64_t>(tables.config.colour_format().max);
   for (std::uint32_t set = 0; set < tables.memo.sets(); ++set) heaviest_.push_back(tables.memo.shape(set).heaviest);
   heaviest_.push_back(tables.ellipses ? tables.ellipses->heaviest : 0);
   // Rounding adds less than one to the bits that are kept.

@@ -56,6 +56,7 @@ constexpr RegisterField kSplatFields[] = {
     built_for<&Config::position_int_bits>("POSITION_INT", 7, 0, "integer bits of x and y, including the sign"),
     built_for<&Config::position_frac_bits>("POSITION_FRAC", 15, 8, "fraction bits of x and y"),
     built_for<&Config::colour_frac_bits>("COLOUR_FRAC", 23, 16, "fraction bits of R, G, B and tau"),
+    built_for<&Config::colour_int_bits>("COLOUR_INT", 31, 24, "integer bits of R, G, B and tau"),
 };
 constexpr RegisterField kWeight[] = {
     built_for<&Config::radial_int_bits>("WEIGHT_INT", 7, 0, "integer bits of a weight"),

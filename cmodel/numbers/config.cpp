@@ -51,7 +51,7 @@ constexpr std::array kKeys{
     ConfigKey{"radial.int_bits", &Config::radial_int_bits, 0, 1, false, "wi: weights U wi.wf"},
     ConfigKey{"radial.frac_bits", &Config::radial_frac_bits, 2, 16, false, "wf"},
     ConfigKey{"colour.frac_bits", &Config::colour_frac_bits, 2, 16, false,
-              "cf: colour and optical depth of a splat, U 0.cf"},
+              "cf: colour and optical depth of a splat, U ci.cf"},
     ConfigKey{"slices.phase_bits", &Config::slice_phase_bits, 0, 12, false,
               "zf: depth steps per kernel unit = 2^zf (driver)"},
     ConfigKey{"slices.frac_bits", &Config::slice_frac_bits, 2, 24, false,
@@ -152,6 +152,13 @@ constexpr std::array kKeys{
               .max = kMostPatternNodeBits,
               .power_of_two = false,
               .meaning = "log2 of the nodes along a side of a solid pattern's table; 0: no patterns",
+              .neutral = 0},
+    ConfigKey{.name = "colour.int_bits",
+              .member = &Config::colour_int_bits,
+              .min = 0,
+              .max = 4,
+              .power_of_two = false,
+              .meaning = "ci: integer bits of colour and optical depth; 0: colours are below 1",
               .neutral = 0},
 };
 
@@ -409,6 +416,10 @@ std::optional<ErrorParts> first_violation(const Config& config) {
     return violation("position.int_bits", "does not cover every splat that touches a tile",
                      "2^(int_bits-1) >= tile side + rlut.columns = " + std::to_string(reach + config.rlut_columns),
                      1 << (config.position_int_bits - 1), "raise position.int_bits");
+  }
+  if (config.colour_bits() > 16) {
+    return violation("colour.int_bits", "leads to colours that are too wide for a record", "int_bits + frac_bits <= 16",
+                     config.colour_bits(), "lower colour.frac_bits");
   }
   if (config.sheet_int_bits + config.sheet_frac_bits > 32) {
     return violation("sheet.frac_bits", "leads to sheet words of more than 32 bits", "int_bits + frac_bits <= 32",

@@ -85,6 +85,7 @@ struct Config {
   int radial_interpolate = 0;     ///< 1: weights are interpolated between entries
   int classify_segment_bits = 0;  ///< log2 Q; 0: densities are not classified
   int pattern_node_bits = 0;      ///< log2 M; 0: no solid patterns
+  int colour_int_bits = 0;        ///< ci; 0: colours are below 1
 
   bool operator==(const Config&) const = default;
 
@@ -144,11 +145,16 @@ struct Config {
     const std::int64_t one = std::int64_t{1} << radial_frac_bits, most = weight_format().max;
     return {0, (most < one ? most : one) << rlut_guard_bits, radial_frac_bits + rlut_guard_bits, 0};
   }
-  Format colour_format() const { return unsigned_format(0, colour_frac_bits); }
+  int colour_bits() const { return colour_int_bits + colour_frac_bits; }
+  Format colour_format() const { return unsigned_format(colour_int_bits, colour_frac_bits); }
   Format sheet_format() const { return unsigned_format(sheet_int_bits, sheet_frac_bits); }
   Format factor_format() const { return unit_format(opacity_frac_bits); }
   Format transmittance_format() const { return unit_format(composite_frac_bits); }
-  Format composited_format() const { return unsigned_format(1, composite_frac_bits); }
+  /// A slab's colour, and what is seen of it.
+  Format slab_format() const {
+    return colour_int_bits == 0 ? transmittance_format() : unsigned_format(colour_int_bits, composite_frac_bits);
+  }
+  Format composited_format() const { return unsigned_format(1 + colour_int_bits, composite_frac_bits); }
   Format pixel_format() const { return unsigned_format(pixel_int_bits, pixel_frac_bits); }
 
   static int log2_exact(int power_of_two);

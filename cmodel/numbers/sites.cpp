@@ -35,12 +35,15 @@ Narrowing narrowing(const Config& c, Site site) {
     case Site::Fall:
       return saturating(c.rounding_fall, of + c.opacity_remainder_bits(), c.factor_format());
     case Site::SlabColour:
+      return saturating(c.rounding_slab, sf + of, c.slab_format());
     case Site::SlabOpacity:
       return saturating(c.rounding_slab, sf + of, c.transmittance_format());
     case Site::AddedColour:
+      return saturating(c.rounding_slab, sf, c.slab_format());
     case Site::AddedOpacity:
       return saturating(c.rounding_slab, sf, c.transmittance_format());
     case Site::Light:
+      return saturating(c.rounding_light, 2 * tf, c.slab_format());
     case Site::Absorbed:
       return saturating(c.rounding_light, 2 * tf, c.transmittance_format());
     case Site::Over:

@@ -117,6 +117,7 @@ std::string sv_package(const Config& config) {
   const int blocks_x = config.tile_width / config.lanes, blocks_y = config.tile_height / config.lanes;
   const int sheet_bits = config.sheet_int_bits + config.sheet_frac_bits;
   const int transmittance_bits = config.composite_frac_bits + 1;
+  const std::int64_t composited_bits = bits_for(config.composited_format().max);
   const int largest_side = config.tile_width > config.tile_height ? config.tile_width : config.tile_height;
 
   Package p;
@@ -158,7 +159,7 @@ std::string sv_package(const Config& config) {
   p.number("RADIAL_BITS", (config.interpolates() ? 2 : 1) * (config.radial_int_bits + config.radial_frac_bits));
   p.number("WEIGHT_DELAY", static_cast<std::int64_t>(stages::weight_delay(config)));
   p.number("TABLE_BITS", std::max(bits_for(config.rlut_rim()), config.radial_int_bits + config.radial_frac_bits));
-  p.number("COLOUR_BITS", config.colour_frac_bits);
+  p.number("COLOUR_BITS", config.colour_bits());
 
   p.section("ellipses: 0, or there are some; where there are none, words of one bit");
   const bool ellipses = config.has_ellipses();
@@ -179,7 +180,9 @@ std::string sv_package(const Config& config) {
   p.number("FACTOR_BITS", config.opacity_frac_bits + 1);
   p.number("TRANS_BITS", transmittance_bits);
   p.number("TRANS_FRAC", config.composite_frac_bits);
-  p.number("STATE_BITS", sheet_bits > transmittance_bits ? sheet_bits : transmittance_bits);
+  p.number("SLAB_BITS", bits_for(config.slab_format().max));
+  p.number("COMPOSITED_BITS", composited_bits);
+  p.number("STATE_BITS", std::max<std::int64_t>(sheet_bits, composited_bits));
   p.number("FREEZE_BELOW", config.freeze_below);
   p.number("COMPOSITE_LANES", config.composited_at_once());
   p.number("SLICES", config.slices());

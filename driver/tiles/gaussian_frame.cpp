@@ -101,6 +101,7 @@ GaussianFrame::GaussianFrame(const scene::GaussianScene& scene, const std::vecto
     report_.cut += part.cut;
     report_.vanished += part.vanished;
     report_.saturated += part.saturated;
+    report_.brightest = std::max(report_.brightest, part.brightest);
     report_.thin += part.thin;
   }
   std::erase_if(gaussians_, [](const QuantisedGaussian& one) { return one.empty(); });
@@ -130,6 +131,7 @@ void GaussianFrame::quantise_all(const scene::GaussianScene& scene, std::span<co
     for (std::size_t c = 0; c < 4; ++c) {
       const double value = splat.opacity * (c < 3 ? splat.colour[static_cast<int>(c)] : 1.0);
       const Quantised word = quantise(value, sample);
+      report.brightest = std::max(report.brightest, value);
       words.colour[c] = static_cast<std::uint32_t>(word.word);
       saturated = saturated || word.saturated;
     }

@@ -17,24 +17,28 @@ module fastsplat_slab_opacity (
     input  logic [1:0]                              mode_i,   // held over a tile
     input  logic [4*fastsplat_pkg::SHEET_BITS-1:0]  sums_i,   // R, G, B, tau
     // k4
-    output logic [4*fastsplat_pkg::STATE_BITS-1:0]  slab_o,   // One.tf each, or U si.sf in mode 2
+    output logic [4*fastsplat_pkg::STATE_BITS-1:0]  slab_o,   // colours and opacity (N-6-3), or U si.sf in mode 2
     output logic [3:0]                              saturated_o
 );
   localparam int SB = fastsplat_pkg::SHEET_BITS;
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int REM = fastsplat_pkg::REM_BITS;
   localparam int TB = fastsplat_pkg::TRANS_BITS;
+  localparam int LB = fastsplat_pkg::SLAB_BITS;
   localparam int DB = fastsplat_pkg::STATE_BITS;
 
   `FASTSPLAT_NARROW(narrow_fall, FB + REM, FB, FALL)
-  `FASTSPLAT_NARROW(narrow_colour, SB + FB, TB, SLAB_COLOUR)
+  `FASTSPLAT_NARROW(narrow_colour, SB + FB, LB, SLAB_COLOUR)
   `FASTSPLAT_NARROW(narrow_opacity, SB + FB, TB, SLAB_OPACITY)
-  `FASTSPLAT_NARROW(narrow_added_colour, SB, TB, ADDED_COLOUR)
+  `FASTSPLAT_NARROW(narrow_added_colour, SB, LB, ADDED_COLOUR)
   `FASTSPLAT_NARROW(narrow_added_opacity, SB, TB, ADDED_OPACITY)
 
   // {overflow, word} with the word as wide as the state
-  function automatic logic [DB:0] to_state(input logic [TB:0] narrowed);
-    to_state = {narrowed[TB], DB'(narrowed[TB-1:0])};
+  function automatic logic [DB:0] opacity_to_state(input logic [TB:0] narrowed);
+    opacity_to_state = {narrowed[TB], DB'(narrowed[TB-1:0])};
+  endfunction
+  function automatic logic [DB:0] colour_to_state(input logic [LB:0] narrowed);
+    colour_to_state = {narrowed[LB], DB'(narrowed[LB-1:0])};
   endfunction
 
   logic [2*FB-1:0] segment_k2;
@@ -66,10 +70,11 @@ module fastsplat_slab_opacity (
       if (valid_i[2]) sum_k3_q <= sum_k2_q;
       if (valid_i[3]) begin
         case (mode_i)
-          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ?
-              narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)) :
-              narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
-          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ? narrow_added_opacity(sum_k3_q) : narrow_added_colour(sum_k3_q));
+          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= (c == 3) ?
+              opacity_to_state(narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q))) :
+              colour_to_state(narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
+          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= (c == 3) ?
+              opacity_to_state(narrow_added_opacity(sum_k3_q)) : colour_to_state(narrow_added_colour(sum_k3_q));
           default: {saturated_o[c], slab_o[c*DB+:DB]} <= {1'b0, DB'(sum_k3_q)};
         endcase
       end

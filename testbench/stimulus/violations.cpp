@@ -403,10 +403,10 @@ class List {
         change(StreamRule::Range, std::string(name) + " " + std::to_string(value), splat, field,
                static_cast<std::uint64_t>(value) & 0xffffffffU);
     }
-    if (config_.colour_frac_bits < 16) {
+    if (config_.colour_bits() < 16) {
       for (const auto& field : {layout::kSplatR, layout::kSplatG, layout::kSplatB, layout::kSplatTau})
         change(StreamRule::Range, "colour at w" + std::to_string(field.word), splat, field,
-               1ULL << config_.colour_frac_bits);
+               1ULL << config_.colour_bits());
     }
     counted(StreamRule::Tag, "tag", later, layout::kSplatTag);
     if (!config_.culls()) beside(StreamRule::Tag, "first tag", splat, layout::kSplatTag);
@@ -424,10 +424,10 @@ class List {
                  static_cast<std::uint64_t>(value) & ((1ULL << cmodel::kEllipsePositionBits) - 1));
       }
     }
-    if (config_.colour_frac_bits < 16) {
+    if (config_.colour_bits() < 16) {
       for (const auto& field : {layout::kEllipseR, layout::kEllipseG, layout::kEllipseBlue, layout::kEllipseTau})
         change(StreamRule::Range, "ellipse colour at w" + std::to_string(field.word), ellipse, field,
-               1ULL << config_.colour_frac_bits);
+               1ULL << config_.colour_bits());
     }
     counted(StreamRule::Tag, "ellipse tag", ellipse, layout::kEllipseTag);
     copy(StreamRule::Order, "ellipse outside a sheet", ellipse, at(Opcode::BeginSheet));

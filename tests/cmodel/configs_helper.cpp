@@ -45,7 +45,8 @@ constexpr std::array kNumbers{std::pair{"ellipse.frac_bits", &oracle::Symbols::f
                               std::pair{"composite.every_sample", &oracle::Symbols::every_sample},
                               std::pair{"radial.interpolate", &oracle::Symbols::interpolate},
                               std::pair{"classify.segment_bits", &oracle::Symbols::segment_bits},
-                              std::pair{"pattern.node_bits", &oracle::Symbols::node_bits}};
+                              std::pair{"pattern.node_bits", &oracle::Symbols::node_bits},
+                              std::pair{"colour.int_bits", &oracle::Symbols::ci}};
 
 cmodel::Config named_config(const std::string& name) {
   const auto read = read_keys(std::string(FASTSPLAT_SOURCE_DIR) + "/configs/" + name + ".toml");
@@ -169,6 +170,8 @@ cmodel::Config drawn_config(Random& random, cmodel::IndexKind kind, bool ellipse
     if (config.composite_every_sample != 0) config.composite_lanes = 0;
     config.radial_interpolate = static_cast<int>(beside.between(0, 1));
     if (cmodel::first_violation(config)) config.radial_interpolate = 0;
+    config.colour_int_bits =
+        static_cast<int>(beside.once_in(2) ? 0 : beside.between(0, std::min(4, 16 - config.colour_frac_bits)));
     return config;
   }
 }

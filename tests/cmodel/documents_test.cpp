@@ -181,9 +181,9 @@ TEST(NumericsPage, KeysAndBaseValuesAreTheConfigurations) {
   const std::size_t required = oracle::keys().size();
   std::vector<std::string> optional;
   for (const oracle::RoundingKey& key : oracle::rounding_keys()) optional.emplace_back(key.name);
-  for (const char* key :
-       {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.lanes", "counters.bits",
-        "composite.every_sample", "cull.map", "radial.interpolate", "classify.segment_bits", "pattern.node_bits"})
+  for (const char* key : {"rounding.carry", "index.kind", "index.symmetry", "ellipse.frac_bits", "composite.lanes",
+                          "counters.bits", "composite.every_sample", "cull.map", "radial.interpolate",
+                          "classify.segment_bits", "pattern.node_bits", "colour.int_bits"})
     optional.emplace_back(key);
   ASSERT_EQ(rows.size(), required + optional.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

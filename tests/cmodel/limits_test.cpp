@@ -21,15 +21,17 @@ TEST(Limits, EveryCornerOfTheWordLengths) {
   Campaign total;
   int configs = 0;
   cmodel::Config config = named_config("tiny");
-  for (const int cf : {2, 16})
+  for (const auto& [ci, cf] : {std::pair{0, 2}, std::pair{0, 16}, std::pair{4, 12}})
     for (const auto& [wi, wf] : {std::pair{0, 2}, std::pair{1, 2}, std::pair{0, 16}, std::pair{1, 16}})
       for (const auto& [si, sf] : {std::pair{1, 4}, std::pair{8, 4}, std::pair{8, 24}, std::pair{1, 31}})
         for (const int of : {2, 16})
           for (const int tf : {4, 20})
             for (const auto& [xi, xf] : {std::pair{0, 4}, std::pair{8, 24}, std::pair{1, 31}}) {
-              config.name = "corner cf " + std::to_string(cf) + " U" + std::to_string(wi) + "." + std::to_string(wf) +
-                            " U" + std::to_string(si) + "." + std::to_string(sf) + " of " + std::to_string(of) +
-                            " tf " + std::to_string(tf) + " U" + std::to_string(xi) + "." + std::to_string(xf);
+              config.name = "corner U" + std::to_string(ci) + "." + std::to_string(cf) + " U" + std::to_string(wi) +
+                            "." + std::to_string(wf) + " U" + std::to_string(si) + "." + std::to_string(sf) + " of " +
+                            std::to_string(of) + " tf " + std::to_string(tf) + " U" + std::to_string(xi) + "." +
+                            std::to_string(xf);
+              config.colour_int_bits = ci;
               config.colour_frac_bits = cf;
               config.radial_int_bits = wi;
               config.radial_frac_bits = wf;
@@ -66,6 +68,7 @@ TEST(Limits, WidestAndNarrowestDevice) {
   widest.tile_width = widest.tile_height = 64;  // the key allows 4096, which only costs time
   widest.rlut_columns = 64;                     // of k = 4096 rows
   widest.sheet_int_bits = widest.pixel_int_bits = 1;
+  widest.colour_frac_bits = 16 - widest.colour_int_bits;
   narrowest.name = "narrowest";
   narrowest.rlut_columns = 2;  // the least that can hold a radius set with k = 1
   ASSERT_NO_FATAL_FAILURE(add(total, widest, random, 100));

@@ -24,6 +24,7 @@ struct Row {
 };
 std::vector<Row> page(const oracle::Symbols& c) {
   using oracle::one, oracle::u;
+  const oracle::Words colour = c.ci == 0 ? one(c.tf) : u(c.ci, c.tf);
   const int b = c.si + c.sf - oracle::log2_of(c.G);
   return {{Site::Snap, c.Rs, c.pf, oracle::s(c.pi, oracle::log2_of(c.K()))},
           {Site::AxisProduct, oracle::Rounding::Rnd, 2 * (c.wf + c.g), u(c.wi, c.wf)},
@@ -31,12 +32,12 @@ std::vector<Row> page(const oracle::Symbols& c) {
           {Site::Product, c.Rp, c.cf + c.wf, u(c.si, c.sf)},
           {Site::Sum, oracle::Rounding::Trn, c.sf, u(c.si, c.sf)},
           {Site::Fall, c.Rf, c.of + b, one(c.of)},
-          {Site::SlabColour, c.Ra, c.sf + c.of, one(c.tf)},
+          {Site::SlabColour, c.Ra, c.sf + c.of, colour},
           {Site::SlabOpacity, c.Ra, c.sf + c.of, one(c.tf)},
-          {Site::AddedColour, c.Ra, c.sf, one(c.tf)},
+          {Site::AddedColour, c.Ra, c.sf, colour},
           {Site::AddedOpacity, c.Ra, c.sf, one(c.tf)},
-          {Site::Light, c.Rl, 2 * c.tf, one(c.tf)},
-          {Site::Over, oracle::Rounding::Trn, c.tf, u(1, c.tf)},
+          {Site::Light, c.Rl, 2 * c.tf, colour},
+          {Site::Over, oracle::Rounding::Trn, c.tf, u(1 + c.ci, c.tf)},
           {Site::Absorbed, c.Rl, 2 * c.tf, one(c.tf)},
           {Site::SumOver, oracle::Rounding::Trn, c.sf, u(c.si, c.sf)},
           {Site::PixelOut, c.Ro, c.tf, u(c.xi, c.xf)},

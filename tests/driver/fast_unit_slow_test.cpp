@@ -156,15 +156,20 @@ TEST(FastUnit, DrawsGaussiansAsThePlainUnit) {
   for (const char* cloud : {"shells:1500", "cloud:400"}) {
     scene::GaussianDescription description;
     description.width = 300, description.height = 200;
-    const auto scene = scene::build_gaussian_scene(
-        description, std::make_shared<scene::GaussianCloud>(scene::make_synthetic_gaussians(cloud)));
+    auto bright = scene::make_synthetic_gaussians(cloud);
+    for (glm::vec3& harmonic : bright.harmonics) harmonic *= 2.0F;
+    const auto scene =
+        scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(bright)));
     const auto projected = scene::project_all(scene);
-    for (const int colour_bits : {16, 12}) {  // 12: products in lanes of 16 bits, colours that are cut
+    // 12: products in lanes of 16 bits, colours that are cut; 15, 14: colours that may exceed 1
+    for (const int colour_bits : {16, 12, 15, 14}) {
       for (const int freeze_below : {0, 7, 4096}) {
         cmodel::Config config = load_config("ellipse");
         config.composite_every_sample = 1;
         config.freeze_below = freeze_below;
         config.colour_frac_bits = colour_bits;
+        if (colour_bits == 15 || colour_bits == 14) config.colour_int_bits = 1;
+        if (colour_bits == 14) config.sheet_int_bits = 4;
         if (colour_bits == 12) config.sheet_frac_bits = 12, config.radial_frac_bits = 12;
         compared.gaussians(std::string(cloud) + ", freeze below " + std::to_string(freeze_below),
                            GaussianFrame(scene, projected, config));
@@ -172,8 +177,8 @@ TEST(FastUnit, DrawsGaussiansAsThePlainUnit) {
     }
   }
   compared.finish();
-  EXPECT_EQ(compared.combinations(), 12u);
-  EXPECT_GE(compared.pictures(), 12u);
+  EXPECT_EQ(compared.combinations(), 24u);
+  EXPECT_GE(compared.pictures(), 24u);
   EXPECT_GT(compared.left_out(), 0u);
 }
 

@@ -32,7 +32,8 @@ Words words_of(const scene::ProjectedGaussian& splat, double cutoff, const cmode
             .colour = {}};
   for (std::size_t i = 0; i < 4; ++i) {
     const double value = i == 3 ? splat.opacity : splat.opacity * splat.colour[static_cast<int>(i)];
-    out.colour[i] = static_cast<std::int64_t>(std::min(std::floor(value * cf + 0.5), cf - 1.0));
+    const double most = std::ldexp(cf, config.colour_int_bits) - 1.0;
+    out.colour[i] = static_cast<std::int64_t>(std::min(std::floor(value * cf + 0.5), most));
   }
   const double rr = cutoff * cutoff, fxx = rr * splat.shape.xx, fxy = rr * splat.shape.xy, fyy = rr * splat.shape.yy;
   const double m =
@@ -52,8 +53,9 @@ TEST(GaussianWords, AreThoseOfThePage) {
   auto config = load_config("ellipse");
   config.composite_every_sample = 1;
   config.tile_width = 64, config.tile_height = 48;
-  std::uint64_t records = 0, different = 0, in_tiles = 0;
-  for (const char* name : {"shells:600", "cloud:400"}) {
+  std::uint64_t records = 0, different = 0, in_tiles = 0, bright = 0;
+  for (const auto& [name, int_bits] : {std::pair{"shells:600", 0}, {"cloud:400", 0}, {"cloud:400", 2}}) {
+    config.colour_int_bits = int_bits, config.colour_frac_bits = 16 - int_bits;
     scene::GaussianDescription description;
     description.camera.projection = scene::Projection::Perspective;
     description.camera.zoom = 1.7;
@@ -81,6 +83,7 @@ TEST(GaussianWords, AreThoseOfThePage) {
         EXPECT_EQ(ellipse->tag, here++);
         const auto is = [&](const scene::ProjectedGaussian& splat) {
           const Words words = words_of(splat, description.cutoff, config);
+          bright += *std::ranges::max_element(words.colour) > 1 << config.colour_frac_bits ? 1 : 0;
           const std::array<std::int64_t, 4> colour{ellipse->colour[0], ellipse->colour[1], ellipse->colour[2],
                                                    ellipse->colour[3]};
           return ellipse->x + begin.x * 256 == words.x && ellipse->y + begin.y * 256 == words.y &&
@@ -110,6 +113,7 @@ TEST(GaussianWords, AreThoseOfThePage) {
   figure("records that are not the page's, or not in order", static_cast<double>(different));
   EXPECT_GT(records, 3000U);
   EXPECT_EQ(different, 0U);
+  EXPECT_GT(bright, 0U);
 }
 
 }  // namespace

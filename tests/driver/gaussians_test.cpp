@@ -59,6 +59,34 @@ Seen seen(const scene::GaussianScene& scene, const cmodel::Config& config) {
   return {std::move(device), apart};
 }
 
+// N-6-1, N-8-84: integer bits keep colours above 1, to within the errors of scenes without any.
+TEST(Gaussians, IntegerBitsKeepColoursAbove1) {
+  GaussianCloud cloud = scene::make_synthetic_gaussians("shells:2000");
+  for (glm::vec3& harmonic : cloud.harmonics) harmonic *= 1.6F;
+  scene::GaussianDescription description;
+  description.width = 160, description.height = 120;
+  description.up = scene::UpAxis::Z;
+  const auto scene = scene::build_gaussian_scene(description, std::make_shared<GaussianCloud>(std::move(cloud)));
+  std::vector<double> psnr;
+  for (const int bits : {0, 1, 2}) {
+    cmodel::Config config = usual_config();
+    config.colour_int_bits = bits, config.colour_frac_bits = 16 - bits, config.pixel_int_bits = std::max(1, bits);
+    config.sheet_int_bits = std::max(2, bits + config.radial_int_bits);
+    ASSERT_FALSE(cmodel::first_violation(config));
+    const auto [device, apart] = seen(scene, config);
+    psnr.push_back(apart.psnr_db);
+    std::printf("[figure] colour.int_bits %d: %.1f dB, largest %.1f LSB8, clamped %llu, brightest %.2f\n", bits,
+                apart.psnr_db, apart.largest, static_cast<unsigned long long>(device.report.saturated),
+                device.report.brightest);
+    EXPECT_EQ(device.report.saturated > 0, bits == 0);
+    EXPECT_GT(device.report.brightest, 1.0);
+    EXPECT_LT(device.report.brightest, 2.0);
+  }
+  EXPECT_LT(psnr[0], 60.0);
+  EXPECT_GT(psnr[1], 65.0);
+  EXPECT_GT(psnr[2], 65.0);
+}
+
 /// shells:60, whose first Gaussian is a needle of this length along (1, 1, 1), a thousandth as thick.
 scene::GaussianScene with_needle(float length) {
   GaussianCloud cloud = scene::make_synthetic_gaussians("shells:60");

@@ -20,20 +20,22 @@
 namespace fastsplat::stages {
 namespace {
 
-scene::GaussianScene scene_of(const std::string& name, double zoom, scene::Projection projection) {
+scene::GaussianScene scene_of(const std::string& name, double zoom, scene::Projection projection,
+                              float brightness = 1.0F) {
   scene::GaussianDescription description;
   description.camera.projection = projection;
   description.camera.zoom = zoom;
   description.width = 90, description.height = 70;
   description.up = scene::UpAxis::Z;
-  return scene::build_gaussian_scene(description,
-                                     std::make_shared<scene::GaussianCloud>(scene::make_synthetic_gaussians(name)));
+  auto cloud = scene::make_synthetic_gaussians(name);
+  for (glm::vec3& harmonic : cloud.harmonics) harmonic *= brightness;
+  return scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(cloud)));
 }
 
 std::vector<scene::GaussianScene> scenes() {
   using enum scene::Projection;
   return {scene_of("cloud:300", 1.0, Perspective), scene_of("shells:900", 1.0, Orthographic),
-          scene_of("shells:500", 2.5, Perspective)};
+          scene_of("shells:500", 2.5, Perspective), scene_of("cloud:200", 1.0, Perspective, 2.0F)};
 }
 
 cmodel::Config usual_config() {
@@ -43,9 +45,9 @@ cmodel::Config usual_config() {
   return config;
 }
 
-/// The usual one, a coarse one, and one with other roundings.
+/// The usual one, a coarse one, one with other roundings, and one whose colours may exceed 1.
 std::vector<cmodel::Config> configs() {
-  std::vector<cmodel::Config> all(3, usual_config());
+  std::vector<cmodel::Config> all(4, usual_config());
   all[1].sheet_frac_bits = 10;
   all[1].composite_frac_bits = 10;
   all[1].freeze_below = 1;
@@ -54,6 +56,8 @@ std::vector<cmodel::Config> configs() {
   all[2].radial_entries = 64;
   all[2].rounding_product = static_cast<int>(cmodel::Rounding::RND_CONV);
   all[2].rounding_light = static_cast<int>(cmodel::Rounding::TRN);
+  all[3].colour_int_bits = 1;
+  all[3].colour_frac_bits = 14;
   for (const cmodel::Config& config : all) EXPECT_FALSE(cmodel::first_violation(config));
   return all;
 }

@@ -413,15 +413,16 @@ class Renderer {
       f = left - sat(c.Rf, (left - right) * rem, c.of + b, one(c.of), "never");
       f_bits = c.of;
     }
+    const Words colours = c.ci == 0 ? one(c.tf) : u(c.ci, c.tf);
     Four slab;  // N-6-3; counted before the test whether the pixel is frozen (N-9-13)
     for (std::size_t ch = 0; ch < 4; ++ch)
-      slab[ch] = sat(c.Ra, S[ch] * f, c.sf + f_bits, one(c.tf), "opacity_saturated");
+      slab[ch] = sat(c.Ra, S[ch] * f, c.sf + f_bits, ch < 3 ? colours : one(c.tf), "opacity_saturated");
     const Wide T = p.C[3];
     if (T < c.eps) return;  // N-6-6
     // N-6-7; the cut of a colour counts (N-9-15)
     for (std::size_t ch = 0; ch < 3; ++ch) {
-      const Wide seen = sat(c.Rl, T * slab[ch], 2 * c.tf, one(c.tf), "never");
-      p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1, c.tf), "composite_saturated");
+      const Wide seen = sat(c.Rl, T * slab[ch], 2 * c.tf, colours, "never");
+      p.C[ch] = sat(Rounding::Trn, p.C[ch] + seen, c.tf, u(1 + c.ci, c.tf), "composite_saturated");
     }
     p.C[3] = T - sat(c.Rl, T * slab[3], 2 * c.tf, one(c.tf), "never");
   }

@@ -163,7 +163,7 @@ void place_and_colour(const Reader& r, Record& record) {
   for (const std::int32_t p : {record.x, record.y}) r.rule(p >= position.smallest && p <= position.largest, "position");
   const std::uint32_t v[4] = {r.low(4), r.high(4), r.low(5), r.high(5)};
   for (int i = 0; i < 4; ++i) {
-    r.rule(v[i] <= u(0, r.c.cf).largest, "colour");
+    r.rule(v[i] <= u(r.c.ci, r.c.cf).largest, "colour");
     record.v[i] = v[i];
   }
 }

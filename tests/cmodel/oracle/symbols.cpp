@@ -67,6 +67,7 @@ std::uint64_t hash(const Symbols& symbols) {
   if (symbols.interpolate != 0) line("radial.interpolate", "1");
   if (symbols.segment_bits != 0) line("classify.segment_bits", std::to_string(symbols.segment_bits));
   if (symbols.node_bits != 0) line("pattern.node_bits", std::to_string(symbols.node_bits));
+  if (symbols.ci != 0) line("colour.int_bits", std::to_string(symbols.ci));
   return state;
 }
 

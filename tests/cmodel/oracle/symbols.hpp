@@ -36,6 +36,7 @@ struct Symbols {
   int interpolate = 0;       ///< of the radial table
   int segment_bits = 0;      ///< q, of CLASSIFY; 0: no sheets of densities
   int node_bits = 0;         ///< of NODES; 0: no solid patterns
+  int ci = 0;                ///< 0: colours are below 1
   /// N-4.7-1: one more where weights are interpolated.
   int radial_words() const { return N + interpolate; }
 

@@ -256,7 +256,7 @@ class Page {
 
   /// One channel of a splat in a record: v_c of N-8-66 and N-8-67.
   void input(Share& share, std::size_t c, Wide part) {
-    const auto v = narrow(Rounding::Trn, Overflow::Sat, part, symbols_.cf, oracle::u(0, symbols_.cf));
+    const auto v = narrow(Rounding::Trn, Overflow::Sat, part, symbols_.cf, oracle::u(symbols_.ci, symbols_.cf));
     share.v[c] = to_int(v.word);
     share.cut = share.cut || v.overflow;
     met_.saturated_words += v.overflow ? 1 : 0;

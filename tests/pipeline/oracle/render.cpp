@@ -72,6 +72,12 @@ class Frame {
 
   bool densities() const { return scene_.description.classify == scene::ClassifyOrder::Post; }
 
+  /// Of a slab's colour, and of what is seen of it.
+  double colour_word(int rounding, double value, Closeness& closeness) const {
+    const int ci = config_.colour_int_bits, tf = config_.composite_frac_bits;
+    return ci == 0 ? to_unit(rounding, value, tf, closeness) : to_unsigned(rounding, value, ci, tf, closeness);
+  }
+
   /// Steps sheet to freeze, at the end of a sheet; for one sample, and for a former density, from factor on.
   void composite(Values s, Pixel& pixel) const {
     if (!samples() && !densities()) cut_sum(s);
@@ -94,8 +100,8 @@ class Frame {
     }
     const int tf = config_.composite_frac_bits;
     for (std::size_t c = 0; c < 3; ++c) {
-      const double light = to_unit(config_.rounding_light, before * slab[c], tf, pixel.closeness);
-      pixel.colour[c] = std::min(pixel.colour[c] + light, largest(1, tf));
+      const double light = colour_word(config_.rounding_light, before * slab[c], pixel.closeness);
+      pixel.colour[c] = std::min(pixel.colour[c] + light, largest(1 + config_.colour_int_bits, tf));
     }
     pixel.t = before - to_unit(config_.rounding_light, before * slab[3], tf, pixel.closeness);
   }
@@ -190,7 +196,8 @@ class Frame {
     for (std::size_t c = 0; c < 4; ++c) {
       slab[c] = s[c] * f;
       if (device_slab) {
-        slab[c] = to_unit(config_.rounding_slab, slab[c], config_.composite_frac_bits, closeness);
+        slab[c] = c < 3 ? colour_word(config_.rounding_slab, slab[c], closeness)
+                        : to_unit(config_.rounding_slab, slab[c], config_.composite_frac_bits, closeness);
       } else if (additive_) {
         slab[c] = std::min(1.0, slab[c]);
       }

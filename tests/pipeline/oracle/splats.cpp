@@ -101,7 +101,7 @@ class Steps {
     if (sheets_.sliced) {
       slice(real.depth, v, splat);
     } else {
-      const double most = largest(0, config_.colour_frac_bits);
+      const double most = largest(config_.colour_int_bits, config_.colour_frac_bits);
       Values& share = splat.shares[static_cast<std::size_t>(sheets_.of_grid ? real.sheet : 0)];
       for (std::size_t c = 0; c < 4; ++c) share[c] = mixture_.device(Step::Share) ? std::min(v[c], most) : v[c];
     }
@@ -178,7 +178,7 @@ class Steps {
       for (std::size_t c = 0; c < 4; ++c) {
         if (mixture_.device(Step::Share)) {
           const double h = rnd(v[c] * far, cf, splat.closeness) - rnd(v[c] * near, cf, splat.closeness);
-          share[c] = std::min(h, largest(0, cf));
+          share[c] = std::min(h, largest(config_.colour_int_bits, cf));
         } else {
           share[c] = v[c] * (far - near);
         }

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/errors/matched_gaussians.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace fastsplat::analysis {
+namespace {
+
+using scene::GaussianCloud;
+
+constexpr std::size_t kNearest = 16;
+
+/// Points by position: a k-d tree in an array, the median of each part in its middle.
+class NearPoints {
+ public:
+  struct Found {
+    double squared = 0.0;
+    std::uint32_t number = 0;
+  };
+
+  explicit NearPoints(const GaussianCloud& cloud) : cloud_(cloud), order_(cloud.gaussians.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    build(order_, 0);
+  }
+  /// The `kNearest` nearest, nearest first.
+  std::vector<Found> near(const glm::vec3& at) const {
+    std::vector<Found> found;
+    search(order_, 0, at, found);
+    return found;
+  }
+
+ private:
+  float along(std::uint32_t number, int axis) const { return cloud_.gaussians[number].position[axis]; }
+
+  void build(std::span<std::uint32_t> part, int axis) {
+    if (part.size() < 2) return;
+    const std::size_t middle = part.size() / 2;
+    std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(middle), part.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return along(a, axis) < along(b, axis); });
+    build(part.first(middle), (axis + 1) % 3);
+    build(part.subspan(middle + 1), (axis + 1) % 3);
+  }
+
+  void search(std::span<const std::uint32_t> part, int axis, const glm::vec3& at, std::vector<Found>& found) const {
+    if (part.empty()) return;
+    const std::size_t middle = part.size() / 2;
+    const double beside = static_cast<double>(at[axis]) - static_cast<double>(along(part[middle], axis));
+    const auto before = part.first(middle), behind = part.subspan(middle + 1);
+    search(beside < 0.0 ? before : behind, (axis + 1) % 3, at, found);
+    const glm::dvec3 apart = glm::dvec3(at) - glm::dvec3(cloud_.gaussians[part[middle]].position);
+    const Found here{glm::dot(apart, apart), part[middle]};
+    const auto place = std::ranges::upper_bound(found, here.squared, {}, &Found::squared);
+    found.insert(place, here);
+    if (found.size() > kNearest) found.pop_back();
+    if (found.size() < kNearest || beside * beside <= found.back().squared)
+      search(beside < 0.0 ? behind : before, (axis + 1) % 3, at, found);
+  }
+
+  const GaussianCloud& cloud_;
+  std::vector<std::uint32_t> order_;
+};
+
+/// How unlike two Gaussians are, apart from their places.
+double unlike(const GaussianCloud& from, std::size_t a, const GaussianCloud& to, std::size_t b) {
+  const scene::Gaussian &x = from.gaussians[a], &y = to.gaussians[b];
+  double sum = std::abs(static_cast<double>(x.opacity - y.opacity));
+  std::array<float, 3> p{x.scale.x, x.scale.y, x.scale.z}, q{y.scale.x, y.scale.y, y.scale.z};
+  std::ranges::sort(p), std::ranges::sort(q);  // encoders may exchange axes
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    sum += std::abs(
+        std::log(std::max(static_cast<double>(p[axis]), 1e-10) / std::max(static_cast<double>(q[axis]), 1e-10)));
+  return sum + glm::distance(glm::dvec3(from.harmonics_of(a)[0]), glm::dvec3(to.harmonics_of(b)[0]));
+}
+
+}  // namespace
+
+std::vector<std::optional<std::uint32_t>> matched_gaussians(const GaussianCloud& from, const GaussianCloud& to) {
+  const NearPoints points(to);
+  const std::size_t count = from.gaussians.size();
+  std::vector<std::optional<std::uint32_t>> out(count);
+  std::vector<char> taken(to.gaussians.size(), 0);
+  std::size_t in_order = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto near = points.near(from.gaussians[i].position);
+    // Places count in units of the distance to the last of the nearest.
+    const double unit = near.back().squared > 0.0 ? near.back().squared : 1.0;
+    double least = 0.0;
+    for (const auto& [squared, number] : near) {
+      in_order += number == i ? 1U : 0U;
+      const double cost = squared / unit + unlike(from, i, to, number);
+      if (taken[number] != 0 || (out[i] && !(cost < least))) continue;
+      least = cost, out[i] = number;
+    }
+    if (out[i]) taken[*out[i]] = 1;
+  }
+  constexpr double kMost = 0.9;
+  if (count == to.gaussians.size() && static_cast<double>(in_order) > kMost * static_cast<double>(count))
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint32_t>(i);
+  return out;
+}
+
+}  // namespace fastsplat::analysis

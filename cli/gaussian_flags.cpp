@@ -155,7 +155,7 @@ void declare(Options& options, GaussianFlags& to) {
   const scene::GaussianDescription usual;
   options.group("3-D Gaussians");
   options.word("--gaussians", to.file, "FILE|NAME",
-               "draw a trained scene (a file), or shells:2000 or cloud:500, instead of a volume");
+               "draw a trained scene (a file), or shells:2000, cloud:500 or outdoor:100000, instead of a volume");
   options.values(scene::synthetic_gaussian_names);
   options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
                  "axis that points up: x, y, z, -x, -y, -z (as declared by the file, else -y; z in built-in scenes)");

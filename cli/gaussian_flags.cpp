@@ -12,6 +12,7 @@
 #include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
+#include "cli/progress_bar.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "scene/settings.hpp"
@@ -307,12 +308,16 @@ std::vector<Remark> remarks(const scene::ProjectionReport& projection) {
                        counted(projection.degenerate, "Gaussian"))}};
 }
 
-driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads,
+driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, const Common& common,
                               const Output& output) {
   scene::ProjectionReport projection;
-  const auto projected = scene::project_all(scene, &projection, threads);
+  std::vector<scene::ProjectedGaussian> projected;
+  {
+    ProgressBar bar("projecting", watching(common));
+    projected = scene::project_all(scene, &projection, common.threads, bar.callback());
+  }
   output.remark(remarks(projection));
-  return {scene, projected, config, threads};
+  return {scene, projected, config, common.threads};
 }
 
 std::string summary(const scene::GaussianScene& scene) {

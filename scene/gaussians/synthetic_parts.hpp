@@ -2,7 +2,6 @@
 // What the built-in scenes of 3-D Gaussians share: random numbers, rotations, colours.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -14,7 +13,7 @@ namespace fastsplat::scene {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  double unit() { return std::ldexp(static_cast<double>(next() >> 11U), -53); }
+  double unit() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
   /// Mean 0, deviation 1, nearly normal: the sum of 12 uniform numbers.
   double normal() {

@@ -7,11 +7,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "base/error.hpp"
+#include "base/parallel/parallel.hpp"
 #include "scene/gaussians/harmonics.hpp"
+#include "scene/gaussians/projected_gaussian.hpp"
 
 namespace fastsplat::scene {
 namespace {
@@ -111,6 +115,24 @@ TEST(Outdoor, LeavesRoomForCameras) {
     EXPECT_GE(one.position.z, -0.12F);
     EXPECT_FALSE(away > 4.5F && away < 7.0F && one.position.z > 0.12F) << one.position.x << ' ' << one.position.y;
   }
+}
+
+// Progress is reported for every part, by every thread.
+TEST(Outdoor, ProjectionReportsProgress) {
+  GaussianDescription description;
+  description.width = 64, description.height = 36;
+  description.up = UpAxis::Z;
+  const auto scene = build_gaussian_scene(description, std::make_shared<GaussianCloud>(outdoor()));
+  std::atomic<std::size_t> calls{0}, most{0};
+  const auto splats = project_all(scene, nullptr, 2, [&](std::size_t done, std::size_t total) {
+    EXPECT_EQ(total, part_count(kCount));
+    ++calls;
+    if (done == total) most = done;
+  });
+  EXPECT_GT(splats.size(), 0U);
+  EXPECT_GT(calls, 1U);
+  EXPECT_EQ(calls, part_count(kCount));
+  EXPECT_EQ(most, part_count(kCount));
 }
 
 TEST(SyntheticGaussians, SeedsDecideTheScene) {

@@ -93,9 +93,8 @@ void declare_cameras(Options& options, GaussianFlags& to) {
       "--look-at", not_a_point, [&to](const std::string& text) { to.look_at = text; }, "X,Y,Z",
       "point in the middle of the picture (the scene's middle)");
   static const std::string near = fmt::format(
-      "Gaussians nearer than this along the view axis are not drawn, in the scene's unit ({:g} with --cameras, --pose "
-      "or "
-      "--eye, else {:g} of the eye's distance)",
+      "least depth that is drawn, in the scene's unit ({:g} with --cameras, --pose, --eye; else {:g} of the "
+      "eye's distance)",
       scene::kNearPlaced, scene::kNearShare);
   options.number("--near", to.near, "NUMBER", near.c_str());
 }
@@ -169,10 +168,9 @@ void declare(Options& options, GaussianFlags& to) {
   declare_cameras(options, to);
   options.number("--low-pass", to.low_pass, "NUMBER", low_pass.c_str());
   options.number("--cutoff", to.cutoff, "NUMBER", cutoff.c_str());
-  options.choice(
-      "--order", to.order, order_names(), "NAME",
-      "sort by depth of centres, by their distance from the eye (as the file declares, else centres); golden: "
-      "or in every pixel");
+  options.choice("--order", to.order, order_names(), "NAME",
+                 "nearest first by depth of centres, by distance from the eye, or (golden) in all pixels: centres, "
+                 "distance, pixels (centres)");
 }
 
 GaussianView describe(const GaussianFlags& flags, const SceneFlags& scene) {

@@ -96,8 +96,9 @@ std::string gaussian_text(const scene::GaussianCloud& cloud) {
   const auto sizes = harmonic_sizes(cloud);
   for (std::size_t degree = 1; degree <= sizes.size(); ++degree)
     text += fmt::format("degree {}   coefficients to {:.4g}\n", degree, sizes[degree - 1]);
-  text += fmt::format("declares   up {}{}{}\n", cloud.up ? up_of(cloud) : "not given",
-                      cloud.antialiased ? ", trained anti-aliased" : "", cloud.linear ? ", linear colours" : "");
+  text += fmt::format("declares   up {}{}{}{}\n", cloud.up ? up_of(cloud) : "not given",
+                      cloud.antialiased ? ", trained anti-aliased" : "", cloud.linear ? ", linear colours" : "",
+                      cloud.by_distance ? ", order of distances" : "");
   for (const scene::DroppedGaussians& some : cloud.dropped)
     text +=
         fmt::format("dropped    {}: {}, first Gaussian {}\n", grouped(some.count), printable(some.cause), some.first);
@@ -118,6 +119,7 @@ nlohmann::ordered_json gaussian_json(const scene::GaussianCloud& cloud) {
   json["largest_harmonic"] = harmonic_sizes(cloud);
   json["up"] = cloud.up ? Json(up_of(cloud)) : Json(nullptr);
   json["antialiased"] = cloud.antialiased;
+  json["by_distance"] = cloud.by_distance;
   json["linear"] = cloud.linear;
   json["dropped"] = Json::array();
   for (const scene::DroppedGaussians& some : cloud.dropped)

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Files store rotations in few digits; what is farther from one is no rotation.
+/// Files store rotations in few digits; matrices farther from a rotation are refused.
 constexpr double kRotationError = 1e-3;
 constexpr int kMostSide = 1 << 20;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras anywhere in a scene of Gaussians: from the files that trainers write, a matrix, or an eye and where it looks
-// (docs/guide/gaussian-cameras.md).
+// (docs/guide/gaussians.md).
 #pragma once
 
 #include <filesystem>

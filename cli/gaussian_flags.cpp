@@ -12,6 +12,7 @@
 #include "base/printable.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
+#include "cli/progress_bar.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "scene/settings.hpp"
@@ -154,7 +155,7 @@ void declare(Options& options, GaussianFlags& to) {
   const scene::GaussianDescription usual;
   options.group("3-D Gaussians");
   options.word("--gaussians", to.file, "FILE|NAME",
-               "draw a trained scene (a file), or shells:2000 or cloud:500, instead of a volume");
+               "draw a trained scene (a file), or shells:2000, cloud:500 or outdoor:100000, instead of a volume");
   options.values(scene::synthetic_gaussian_names);
   options.choice("--up", to.up, scene::up_axis_names(), "AXIS",
                  "axis that points up: x, y, z, -x, -y, -z (as declared by the file, else -y; z in built-in scenes)");
@@ -305,12 +306,16 @@ std::vector<Remark> remarks(const scene::ProjectionReport& projection) {
                        counted(projection.degenerate, "Gaussian"))}};
 }
 
-driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, int threads,
+driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, const Common& common,
                               const Output& output) {
   scene::ProjectionReport projection;
-  const auto projected = scene::project_all(scene, &projection, threads);
+  std::vector<scene::ProjectedGaussian> projected;
+  {
+    ProgressBar bar("projecting", watching(common));
+    projected = scene::project_all(scene, &projection, common.threads, bar.callback());
+  }
   output.remark(remarks(projection));
-  return {scene, projected, config, threads};
+  return {scene, projected, config, common.threads};
 }
 
 std::string summary(const scene::GaussianScene& scene) {

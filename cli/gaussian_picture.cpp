@@ -13,6 +13,7 @@
 #include "cli/config_json.hpp"
 #include "cli/device_report.hpp"
 #include "cli/image_output.hpp"
+#include "cli/progress_bar.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
 
 namespace fastsplat::cli {
@@ -201,12 +202,13 @@ images::Metadata gaussian_metadata(const std::string& engine, const scene::Gauss
 GaussianPicture render_picture(const GaussianRenderer& renderer, const scene::GaussianScene& scene,
                                const Progress& progress) {
   scene::ProjectionReport projection;
-  const auto projected = scene::project_all(scene, &projection, renderer.threads);
+  const auto projected = scene::project_all(scene, &projection, renderer.threads, step_of(progress, 0, 2));
+  const Progress drawing = step_of(progress, 1, 2);
   if (renderer.engine == Engine::Golden) {
     GoldenGaussians golden{projection};
     Image image = golden::render_gaussians(
         scene, projected,
-        {.threads = renderer.threads, .progress = progress, .order = renderer.order, .samples = &golden.samples});
+        {.threads = renderer.threads, .progress = drawing, .order = renderer.order, .samples = &golden.samples});
     return {std::move(image), golden};
   }
   const cmodel::Config& config = *renderer.config;
@@ -214,14 +216,14 @@ GaussianPicture render_picture(const GaussianRenderer& renderer, const scene::Ga
   driver::GaussianRender render;
   std::optional<RtlRun> checked;
   if (renderer.engine == Engine::Rtl) {
-    const cmodel::BeatSource source = [&](const cmodel::BeatSink& sink) { render.report = frame.emit(sink, progress); };
+    const cmodel::BeatSource source = [&](const cmodel::BeatSink& sink) { render.report = frame.emit(sink, drawing); };
     auto [words, counters] = render_rtl(source, frame.grid(), config, renderer.checking, checked);
     render.frame = std::move(words);
     render.counters = counters;
   } else {
     render = driver::render_gaussians(
         frame,
-        {.threads = renderer.threads, .unit = renderer.unit, .counters = renderer.counters, .progress = progress});
+        {.threads = renderer.threads, .unit = renderer.unit, .counters = renderer.counters, .progress = drawing});
   }
   DeviceGaussians device{config, render.report, render.counters, render.units, render.counted};
   device.report.projection = projection;

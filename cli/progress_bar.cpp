@@ -41,6 +41,11 @@ Progress ProgressBar::callback() {
   return [this](std::size_t done, std::size_t total) { show(done, total); };
 }
 
+Progress step_of(const Progress& whole, std::size_t step, std::size_t steps) {
+  if (!whole) return {};
+  return [whole, step, steps](std::size_t done, std::size_t total) { whole(step * total + done, steps * total); };
+}
+
 void ProgressBar::show(std::size_t done, std::size_t total) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock()) return;  // another thread is drawing: do not wait

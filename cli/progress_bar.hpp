@@ -15,6 +15,9 @@ namespace fastsplat::cli {
 enum class Watching { IfTerminal, Never };
 inline Watching watching(const Common& common) { return common.quiet ? Watching::Never : Watching::IfTerminal; }
 
+/// Progress of one of `steps` equal steps of a whole, the first being 0; empty if `whole` is.
+Progress step_of(const Progress& whole, std::size_t step, std::size_t steps);
+
 class ProgressBar {
  public:
   using Clock = std::chrono::steady_clock;

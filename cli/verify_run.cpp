@@ -252,8 +252,8 @@ Checked verify_scene(const VerifyArguments& arguments, testbench::VerifyOptions 
   if (arguments.gaussians.file) {
     const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
-    source = emitting(std::make_shared<const driver::GaussianFrame>(
-        compile(scene, options.config, arguments.common.threads, output)));
+    source = emitting(
+        std::make_shared<const driver::GaussianFrame>(compile(scene, options.config, arguments.common, output)));
   } else {
     const auto scene = build(arguments.scene);
     output.remark(remarks(*scene.volume));

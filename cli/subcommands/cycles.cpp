@@ -325,7 +325,7 @@ ExitCode run(const CyclesArguments& arguments) {
     const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
     result.scene = summary(scene);
-    const auto frame = compile(scene, config, arguments.common.threads, output);
+    const auto frame = compile(scene, config, arguments.common, output);
     ProgressBar bar("cycles", watching(arguments.common));
     const auto device = make(cmodel::StreamScope::Subset);
     frame.emit([&](std::span<const cmodel::Beat> beats) { device->consume(beats); }, bar.callback());

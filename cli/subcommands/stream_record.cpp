@@ -74,11 +74,11 @@ ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::
   const scene::GaussianScene scene =
       build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
   driver::check_image_size(scene.camera.width(), scene.camera.height());
+  const auto frame = compile(scene, config, arguments.common, output);
   driver::GaussianReport report;
   {
     ProgressBar bar("recording", watching(arguments.common));
-    report =
-        driver::record_stream(compile(scene, config, arguments.common.threads, output), arguments.out, bar.callback());
+    report = driver::record_stream(frame, arguments.out, bar.callback());
   }
   output.line(fmt::format("{}\ndriver: {}, {}\n{}\n", summary(scene), counted(report.records, "ellipse record"),
                           counted(report.tiles, "tile"), arguments.out));

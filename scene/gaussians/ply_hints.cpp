@@ -84,9 +84,9 @@ std::optional<UpAxis> axis_named(std::string text) {
   return static_cast<UpAxis>(found - up_axis_names().begin());
 }
 
-class Reader {
+class HintReader {
  public:
-  explicit Reader(bool brush) : brush_(brush) {}
+  explicit HintReader(bool brush) : brush_(brush) {}
 
   void take(const Hint& hint) {
     if (is_one_of(hint.key, {"verticalaxis", "upaxis", "up", "upvector", "updirection", "worldup"})) return up(hint);
@@ -163,7 +163,7 @@ class Reader {
 }  // namespace
 
 PlyHints hints_of(std::span<const std::string> comments) {
-  Reader reader(
+  HintReader reader(
       std::ranges::any_of(comments, [](const auto& text) { return has(lower_case(text), "exported from brush"); }));
   for (const std::string& text : comments) {
     for (const Hint& hint : hints_in(text)) reader.take(hint);

@@ -2,6 +2,7 @@
 #include "scene/gaussians/projected_gaussian.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "base/parallel/parallel.hpp"
@@ -103,7 +104,8 @@ bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian
   return project(scene, View(scene), number, out);
 }
 
-std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report, int threads) {
+std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report, int threads,
+                                           const Progress& progress) {
   const std::size_t count = scene.cloud->gaussians.size();
   struct Part {
     std::vector<ProjectedGaussian> splats;
@@ -111,6 +113,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
   };
   std::vector<Part> parts(part_count(count));
   const View seen(scene);
+  std::atomic<std::size_t> done{0};
   parallel_parts(count, threads, [&](std::size_t number, std::size_t first, std::size_t end) {
     Part& part = parts[number];
     ProjectedGaussian splat;
@@ -125,6 +128,7 @@ std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, Projectio
         part.splats.push_back(splat);
       }
     }
+    if (progress) progress(++done, parts.size());
   });
   ProjectionReport counts{.gaussians = count};
   std::vector<double> depths;

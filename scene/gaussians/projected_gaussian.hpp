@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
 #include "scene/shaped_splat.hpp"
 
@@ -42,10 +43,9 @@ struct ProjectionReport {
 bool project(const GaussianScene& scene, std::uint32_t number, ProjectedGaussian& out);
 
 /// The Gaussians that meet a pixel and are not degenerate, nearest first by GaussianScene::order; equal ones in the
-/// order of the file.
-/// `threads` (0: all cores) never change them.
+/// order of the file. `threads` (0: all cores) never change them.
 std::vector<ProjectedGaussian> project_all(const GaussianScene& scene, ProjectionReport* report = nullptr,
-                                           int threads = 0);
+                                           int threads = 0, const Progress& progress = {});
 
 /// The depth at which a Gaussian is densest on the ray through a pixel. Flat ones count as thick as a thousandth of
 /// their length.

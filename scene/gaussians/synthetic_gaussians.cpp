@@ -13,38 +13,13 @@
 #include "base/number_text.hpp"
 #include "base/suggest.hpp"
 #include "scene/gaussians/harmonics.hpp"
+#include "scene/gaussians/outdoor_gaussians.hpp"
+#include "scene/gaussians/synthetic_parts.hpp"
 
 namespace fastsplat::scene {
 namespace {
 
 constexpr int kMost = 10'000'000;
-
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double unit() { return std::ldexp(static_cast<double>(next() >> 11U), -53); }
-  double between(double low, double high) { return low + (high - low) * unit(); }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15U);
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31U);
-  }
-  std::uint64_t state_;
-};
-
-/// Quaternion (w, x, y, z) of the shortest rotation that takes z to `direction`.
-glm::vec4 turn_to(const glm::dvec3& direction) {
-  const glm::dvec4 q(1.0 + direction.z, -direction.y, direction.x, 0.0);
-  const double length = glm::length(q);
-  return length < 1e-9 ? glm::vec4(0.0F, 1.0F, 0.0F, 0.0F) : glm::vec4(q / length);
-}
-
-/// Constant coefficient for a mean colour of 0..1.
-glm::vec3 constant_of(const glm::dvec3& colour) { return (colour - glm::dvec3(0.5)) / kConstantHarmonic; }
 
 /// Colours from the normal; each is brighter along its normal, so that harmonics of every degree are nonzero.
 void append_shell_colour(const glm::dvec3& normal, int shell, std::vector<glm::vec3>& to) {
@@ -60,7 +35,7 @@ void append_shell_colour(const glm::dvec3& normal, int shell, std::vector<glm::v
 }
 
 /// Fibonacci's spiral on three spheres: Gaussians flat on the sphere and twice as long as wide.
-void shells(int count, GaussianCloud& cloud) {
+void shells(int count, std::uint64_t /*seed*/, GaussianCloud& cloud) {
   constexpr std::array<double, 3> kRadii{1.0, 0.72, 0.45};
   constexpr double kAll = 1.0 + 0.72 * 0.72 + 0.45 * 0.45;
   cloud.degree = 3;
@@ -79,7 +54,7 @@ void shells(int count, GaussianCloud& cloud) {
       const bool hole = shell < 2 && pattern > 0.03;
       cloud.gaussians.push_back({.position = radius * normal,
                                  .scale = glm::vec3(0.6 * apart, 0.35 * apart, 0.06 * apart),
-                                 .rotation = turn_to(normal),
+                                 .rotation = glm::vec4(turn_to(normal)),
                                  .opacity = hole         ? 0.04F
                                             : shell == 2 ? 0.95F
                                                          : 0.8F});
@@ -88,8 +63,8 @@ void shells(int count, GaussianCloud& cloud) {
   }
 }
 
-void cloud_of(int count, GaussianCloud& cloud) {
-  Random random(63);
+void cloud_of(int count, std::uint64_t seed, GaussianCloud& cloud) {
+  Random random(seed);
   cloud.degree = 1;
   for (int i = 0; i < count; ++i) {
     const auto part = [&] {
@@ -121,14 +96,47 @@ void cloud_of(int count, GaussianCloud& cloud) {
 struct Entry {
   const char* name;
   int default_count;
-  void (*make)(int, GaussianCloud&);
+  std::optional<std::uint64_t> default_seed;  ///< empty: nothing in it is random
+  void (*make)(int, std::uint64_t, GaussianCloud&);
 };
-constexpr std::array<Entry, 2> kEntries{{{"shells", 2000, shells}, {"cloud", 500, cloud_of}}};
+constexpr std::array<Entry, 3> kEntries{
+    {{"shells", 2000, {}, shells}, {"cloud", 500, 63, cloud_of}, {"outdoor", 100'000, 1, append_outdoor}}};
 
 const Entry* find(const std::string& name) {
   const std::string word = name.substr(0, name.find(':'));
   const auto* const found = std::ranges::find_if(kEntries, [&](const Entry& entry) { return word == entry.name; });
   return found == kEntries.end() ? nullptr : found;
+}
+
+struct Numbers {
+  int count;
+  std::optional<std::uint64_t> seed;
+};
+
+/// The numbers of "name", "name:count" or "name:count:seed".
+Numbers numbers_of(const Entry& entry, const std::string& name) {
+  const auto refuse = [&](const char* what, std::string expected, std::string_view got) {
+    throw_input({.where = name,
+                 .what = what,
+                 .expected = std::move(expected),
+                 .got = fmt::format("'{}'", got),
+                 .fix = fmt::format("for example {}:{}", entry.name, entry.default_count)});
+  };
+  Numbers out{entry.default_count, entry.default_seed};
+  const auto colon = name.find(':');
+  if (colon == std::string::npos) return out;
+  std::string_view text = std::string_view(name).substr(colon + 1);
+  if (const auto second = text.find(':'); entry.default_seed && second != std::string_view::npos) {
+    const std::string_view word = text.substr(second + 1);
+    out.seed = integer_from<std::uint64_t>(word);
+    if (!out.seed) refuse("the seed is not a number", "0 or more", word);
+    text = text.substr(0, second);
+  }
+  const auto count = integer_from<int>(text);
+  if (!count || *count < 1 || *count > kMost)
+    refuse("the number of Gaussians is out of range", fmt::format("1..{}", kMost), text);
+  out.count = *count;
+  return out;
 }
 
 }  // namespace
@@ -150,20 +158,15 @@ GaussianCloud make_synthetic_gaussians(const std::string& name) {
                  .got = {},
                  .fix = suggestion(name, synthetic_gaussian_names())});
   }
-  const auto colon = name.find(':');
-  const auto count = colon == std::string::npos ? std::optional(entry->default_count)
-                                                : integer_from<int>(std::string_view(name).substr(colon + 1));
-  if (!count || *count < 1 || *count > kMost) {
-    throw_input({.where = name,
-                 .what = "the number of Gaussians is out of range",
-                 .expected = fmt::format("1..{}", kMost),
-                 .got = "'" + name.substr(colon + 1) + "'",
-                 .fix = fmt::format("for example {}:{}", entry->name, entry->default_count)});
-  }
-  GaussianCloud cloud{.name = fmt::format("{}:{}", entry->name, *count),
-                      .source = fmt::format("built-in {}, {} Gaussians", entry->name, *count),
+  const auto [count, seed] = numbers_of(*entry, name);
+  GaussianCloud cloud{.name = fmt::format("{}:{}", entry->name, count),
+                      .source = fmt::format("built-in {}, {} Gaussians", entry->name, count),
                       .up = UpAxis::Z};
-  entry->make(*count, cloud);
+  if (seed && seed != entry->default_seed) {
+    cloud.name += fmt::format(":{}", *seed);
+    cloud.source += fmt::format(", seed {}", *seed);
+  }
+  entry->make(count, seed.value_or(0), cloud);
   return cloud;
 }
 

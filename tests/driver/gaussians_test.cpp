@@ -319,6 +319,45 @@ TEST(Gaussians, ModelEqualsOracle) {
   EXPECT_GT(total.total(), 500000U);
 }
 
+// The recording holds no more of the stream than one block and a Gaussian's records, however long the stream is. The
+// file is the frame's beats and its end_frame.
+TEST(Gaussians, RecordingsAreTheBeatsAndAreWrittenInBlocks) {
+  constexpr std::size_t kBlock = 4096, kMostOfOne = 512;
+  const auto path = std::filesystem::temp_directory_path() / ("recorded-" + std::to_string(::getpid()) + ".fss");
+  for (const char* name : {"outdoor:300", "outdoor:30000"}) {
+    scene::GaussianDescription description;
+    description.width = 400, description.height = 200;
+    description.up = scene::UpAxis::Z;
+    description.placed = scene::PlacedCamera{.eye = {0.0, -5.5, 1.5}};
+    const auto scene = scene::build_gaussian_scene(
+        description, std::make_shared<GaussianCloud>(scene::make_synthetic_gaussians(name)));
+    const GaussianFrame frame(scene, scene::project_all(scene), usual_config());
+    std::vector<cmodel::Beat> beats;
+    std::size_t longest = 0, steps = 0;
+    const GaussianReport report = frame.emit(
+        [&](std::span<const cmodel::Beat> some) {
+          beats.insert(beats.end(), some.begin(), some.end());
+          longest = std::max(longest, some.size());
+        },
+        [&](std::size_t done, std::size_t total) {
+          EXPECT_EQ(done, ++steps);
+          EXPECT_EQ(total, static_cast<std::size_t>(frame.grid().count()));
+        });
+    EXPECT_EQ(steps, report.tiles);
+    EXPECT_LE(longest, kBlock + kMostOfOne);
+    EXPECT_EQ(record_stream(frame, path).records, report.records);
+    std::vector<cmodel::Beat> recorded;
+    read_beats(path,
+               [&](std::span<const cmodel::Beat> some) { recorded.insert(recorded.end(), some.begin(), some.end()); });
+    std::filesystem::remove(path);
+    figure("beats of " + std::string(name), static_cast<double>(recorded.size()));
+    ASSERT_EQ(recorded.size(), beats.size() + 1);
+    EXPECT_TRUE(std::equal(beats.begin(), beats.end(), recorded.begin()));
+    const auto end = std::get<cmodel::EndFrame>(cmodel::from_beat(recorded.back()));
+    EXPECT_EQ(end.beats, beats.size());
+  }
+}
+
 // A device with short positions: a record's centre fits S pi.pf in every tile that it is drawn in. In the farthest such
 // tile it is the last pixel but one of the range (N-8-85).
 TEST(Gaussians, CentresOfRecordsFitThePositionFormat) {

@@ -202,7 +202,8 @@ TEST(SplatFile, OneByHand) {
 }
 
 TEST(SyntheticGaussians, AreAsManyAsWereAskedForAndSound) {
-  for (const char* name : {"shells:1", "shells:2", "shells:7", "shells:2000", "cloud:1", "cloud:500"}) {
+  for (const char* name :
+       {"shells:1", "shells:2", "shells:7", "shells:2000", "cloud:1", "cloud:500", "outdoor:1", "outdoor:500"}) {
     const GaussianCloud cloud = make_synthetic_gaussians(name);
     EXPECT_EQ(std::to_string(cloud.gaussians.size()), std::string(name).substr(std::string(name).find(':') + 1));
     for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
@@ -220,7 +221,8 @@ TEST(SyntheticGaussians, AreTheSameUnderEveryCompiler) {
   };
   for (const auto& [name, recorded] :
        {Recorded{"shells:150", 0x3311e6839069ebab}, Recorded{"shells:2000", 0x955c1ffb9e060141},
-        Recorded{"cloud:200", 0x2304bb7e6bf23905}, Recorded{"cloud:500", 0x1b6b31c8aefc0b7a}}) {
+        Recorded{"cloud:200", 0x2304bb7e6bf23905}, Recorded{"cloud:500", 0x1b6b31c8aefc0b7a},
+        Recorded{"outdoor:500", 0xa45fbbac6c67921d}, Recorded{"outdoor:20000:7", 0x2cfad5b4b5273be6}}) {
     const std::uint64_t hash = content_hash(make_synthetic_gaussians(name));
     std::printf("[figure] numbers of %s = 0x%016llx\n", name, static_cast<unsigned long long>(hash));
     EXPECT_EQ(hash, recorded) << name;

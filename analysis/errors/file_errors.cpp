@@ -33,7 +33,6 @@ GaussianCloud mixed(const GaussianCloud& original, const GaussianCloud& encoded,
   const std::size_t terms = original.harmonics_of(0).size();
   GaussianCloud out = original;
   out.antialiased = (rest ? encoded : original).antialiased, out.linear = (rest ? encoded : original).linear;
-  out.by_distance = (rest ? encoded : original).by_distance;
   out.gaussians.clear(), out.harmonics.clear();
   std::vector<char> used(encoded.gaussians.size(), 0);
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -71,7 +70,9 @@ GaussianCloud mixed(const GaussianCloud& original, const GaussianCloud& encoded,
 scene::GaussianScene with_cloud(const scene::GaussianScene& scene, GaussianCloud cloud) {
   scene::GaussianScene out = scene;
   out.cloud = std::make_shared<const GaussianCloud>(std::move(cloud));
-  return scene::seen_by(scene.description, out);
+  scene::GaussianDescription description = scene.description;
+  description.order = scene.order;  // whatever order the other file declares
+  return scene::seen_by(description, out);
 }
 
 Picture golden_picture(const scene::GaussianScene& scene, int threads) {

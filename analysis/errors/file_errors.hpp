@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file of Gaussians costs, attribute by attribute, and the device behind it (docs/errors.md, section 5).
+// What a file of Gaussians costs, attribute by attribute, and the device behind it (docs/errors.md, section 9).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,7 +27,7 @@ struct FileErrors {
   Amount file, device, total;                          ///< encoded against original; device against encoded; both
 };
 
-/// The picture of `original` in golden against that of `encoded` on the device. Both are seen by the camera of
+/// The picture of `original` in golden against that of `encoded` on the device. Both have the camera and the order of
 /// `original`. Shares are share_of() the whole error.
 FileErrors file_errors(const scene::GaussianScene& original, const scene::GaussianCloud& encoded,
                        const cmodel::Config& config, int threads, const Progress& progress);

@@ -100,7 +100,7 @@ module fastsplat_pixel_out (
       logic [CB-1:0] composited;
       logic [PB:0] pixel_q;
       assign word = picture_i[(4*g+c)*DB+:DB];
-      assign composited = (c == 3) ? CB'((TB'(1) << TF) - word[TB-1:0]) : word[CB-1:0];
+      assign composited = (c == 3) ? (CB'(1) << TF) - CB'(word[TB-1:0]) : word[CB-1:0];
       always_ff @(posedge clk_i) begin
         if ((enable && valid_r1_q) || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
           pixel_q <= (mode_i == 2'd2) ? narrow_sum(word[SB-1:0]) : narrow_composited(composited);

@@ -55,12 +55,13 @@ TEST(GaussiansRun, ARecordedStreamIsTheSamePicture) {
   expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
 }
 
-// On a small device with ellipses and every sample: words, taps and cycles.
+// On a small device with ellipses, every sample and colours above 1: words, taps and cycles.
 TEST(GaussiansRun, TheRtlIsTheModelAndTakesItsCycles) {
   const TempFolder folder;
   const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), {"--gaussians", "shells:60", "--size", "40x36", "--config",
-                               FASTSPLAT_SOURCE_DIR "/configs/faults/westover.toml"});
+                               FASTSPLAT_SOURCE_DIR "/configs/faults/westover.toml", "--set", "colour.int_bits=1",
+                               "--set", "pixel.int_bits=1"});
     words.insert(words.end(), more.begin(), more.end());
     const Result result = fastsplat(words);
     expect_success(result);
@@ -73,6 +74,13 @@ TEST(GaussiansRun, TheRtlIsTheModelAndTakesItsCycles) {
   expect_success(fastsplat({"compare", folder / "model.exr", folder / "rtl.exr", "--max-lsb", "0"}));
   const Json verified = Json::parse(with({"verify"}, {"--json", "-"}).out);
   EXPECT_EQ(verified["mismatches"], 0);
+  const Json random = Json::parse(fastsplat({"verify", "--random", "400", "--json", "-", "--config",
+                                             FASTSPLAT_SOURCE_DIR "/configs/faults/westover.toml", "--set",
+                                             "colour.int_bits=1", "--set", "pixel.int_bits=1"})
+                                      .out);
+  EXPECT_EQ(random["mismatches"], 0);
+  std::printf("[figure] comparisons of random streams with colours above 1 = %d\n", random["comparisons"].get<int>());
+  EXPECT_GT(random["comparisons"].get<int>(), 10000);
   const Json cycles = Json::parse(with({"cycles"}, {"--json", "-"}).out);
   std::printf("[figure] comparisons = %d (limit > 1000), cycles of the RTL = %d, of the model = %d (limit: equal)\n",
               verified["comparisons"].get<int>(), rtl["cycles_rtl"].get<int>(), cycles["cycles"]["actual"].get<int>());

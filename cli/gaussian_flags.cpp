@@ -73,9 +73,11 @@ std::string not_a_point(const std::string& text) {
 }
 
 std::string not_a_pose(const std::string& text) {
-  if (scene::camera_from_matrix(numbers_from(text))) return "";
-  return fmt::format("expected 12 or 16 numbers with commas between, row by row, a rotation and a position, got '{}'",
-                     text);
+  const auto numbers = numbers_from(text);
+  if (scene::camera_from_matrix(numbers)) return "";
+  if (numbers.size() == 12 || numbers.size() == 16)
+    return fmt::format("expected a rotation, not mirrored or scaled, and a position, got '{}'", text);
+  return fmt::format("expected 12 numbers with commas between, row by row, got '{}'", text);
 }
 
 void declare_cameras(Options& options, GaussianFlags& to) {
@@ -112,6 +114,8 @@ void check_cameras(const GaussianFlags& flags, const SceneFlags& scene) {
       meaningless(one.name, fmt::format("cannot be combined with {}", other.name), "use one of them");
   };
   both(cameras, pose), both(cameras, eye), both(pose, eye);
+  const Flag look_at{"--look-at", flags.look_at.has_value()};
+  both(cameras, look_at), both(pose, look_at);
   if (flags.view && !cameras.given) meaningless("--view", "requires --cameras", "add --cameras FILE");
   if (flags.look_at && !eye.given) meaningless("--look-at", "requires --eye", "add --eye X,Y,Z");
   const Flag flat{"--orthographic", scene.orthographic}, near{"--near", flags.near.has_value()};
@@ -257,7 +261,7 @@ scene::GaussianScene build(const GaussianFlags& flags, const GaussianView& view)
   std::optional<scene::CameraFile> cameras;
   if (flags.cameras) {
     cameras = scene::load_cameras(*flags.cameras, view.size);
-    use_camera(*cameras, scene::find_camera(*cameras, flags.view.value_or("0")), view, description);
+    use_camera(*cameras, flags.view ? scene::find_camera(*cameras, *flags.view) : 0, view, description);
   }
   auto cloud = read_gaussians(*flags.file, flags.strict);
   if (view.crop) scene::crop(cloud, *view.crop);
@@ -301,9 +305,47 @@ ConfigFlags for_gaussians(ConfigFlags flags) {
 
 std::vector<Remark> remarks(const scene::ProjectionReport& projection) {
   if (projection.degenerate == 0) return {};
-  return {{Remark::Warning,
-           fmt::format("{} left out: too long and thin for the precision of doubles; use a smaller --zoom",
-                       counted(projection.degenerate, "Gaussian"))}};
+  return {
+      {Remark::Warning, fmt::format("{} left out: too long and thin for the precision of doubles; move the camera away",
+                                    counted(projection.degenerate, "Gaussian"))}};
+}
+
+namespace {
+
+/// "use --set ...": a configuration whose words hold such a colour.
+std::string brighter(const cmodel::Config& config, double brightest) {
+  const int bits = static_cast<int>(std::floor(std::log2(brightest))) + 1;
+  if (bits > cmodel::find_key("colour.int_bits")->max)
+    return fmt::format("no configuration holds a colour of {:.3g}", brightest);
+  std::string flags = "use";
+  const auto set = [&](const char* key, int from, int to) {
+    if (to != from) flags += fmt::format(" --set {}={}", key, to);
+  };
+  set("colour.int_bits", config.colour_int_bits, bits);
+  set("colour.frac_bits", config.colour_frac_bits, std::min(config.colour_frac_bits, 16 - bits));
+  set("sheet.int_bits", config.sheet_int_bits, std::max(config.sheet_int_bits, bits + config.radial_int_bits));
+  set("pixel.int_bits", config.pixel_int_bits, std::max(config.pixel_int_bits, bits));
+  return flags;
+}
+
+}  // namespace
+
+std::vector<Remark> remarks(const driver::GaussianReport& report, const cmodel::Config& config) {
+  std::vector<Remark> said;
+  const auto warn = [&](std::uint64_t count, const std::string& what) {
+    if (count > 0) said.push_back({Remark::Warning, counted(count, "Gaussian") + what});
+  };
+  warn(report.cut, " clipped at the reach of an ellipse record; use a smaller --size, or move the camera away");
+  warn(report.thin,
+       " too long and thin for an ellipse's words to hold the shape; `fastsplat errors` says what that costs, under "
+       "step "
+       "radius");
+  if (report.saturated > 0)
+    warn(report.saturated, " brighter than the input format allows and clamped; " + brighter(config, report.brightest));
+  if (report.vanished > 0)
+    said.push_back(
+        {Remark::Note, counted(report.vanished, "Gaussian") + " vanished: too transparent for the input format"});
+  return said;
 }
 
 driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, const Common& common,
@@ -315,13 +357,16 @@ driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::C
     projected = scene::project_all(scene, &projection, common.threads, bar.callback());
   }
   output.remark(remarks(projection));
-  return {scene, projected, config, common.threads};
+  driver::GaussianFrame frame(scene, projected, config, common.threads);
+  output.remark(remarks(frame.report(), config));
+  return frame;
 }
 
 std::string summary(const scene::GaussianScene& scene) {
-  return fmt::format("{}, {}, degree {}, {}x{} pixels", printable(scene.cloud->name),
+  const std::string name = scene.description.placed ? scene.description.placed->name : "";
+  return fmt::format("{}, {}, degree {}, {}x{} pixels{}", printable(scene.cloud->name),
                      counted(scene.cloud->gaussians.size(), "Gaussian"), scene.cloud->degree, scene.camera.width(),
-                     scene.camera.height());
+                     scene.camera.height(), name.empty() ? "" : ", camera " + printable(name));
 }
 
 }  // namespace fastsplat::cli

@@ -67,7 +67,9 @@ ConfigFlags for_gaussians(ConfigFlags flags);
 inline cmodel::Config load_for_gaussians(const ConfigFlags& flags) { return load(for_gaussians(flags)); }
 /// A warning if Gaussians are left out although they meet the picture.
 std::vector<Remark> remarks(const scene::ProjectionReport& projection);
-/// Compiles a view of them for the device, with that warning and a progress bar while they are projected.
+/// What of a compiled view the device does not hold: clipped, thin, too bright or transparent Gaussians.
+std::vector<Remark> remarks(const driver::GaussianReport& report, const cmodel::Config& config);
+/// Compiles a view of them for the device, with both remarks and a progress bar while they are projected.
 driver::GaussianFrame compile(const scene::GaussianScene& scene, const cmodel::Config& config, const Common& common,
                               const Output& output);
 /// "lastchance.splat, 14,007 Gaussians, degree 0, 512x512 pixels".

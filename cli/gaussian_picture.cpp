@@ -108,45 +108,8 @@ std::string view_text(const scene::GaussianScene& scene) {
   return text + fmt::format(", low-pass {}, cutoff {}", description.low_pass, description.cutoff);
 }
 
-/// The flags of a configuration whose words hold such a colour.
-std::string brighter(const cmodel::Config& config, double brightest) {
-  const int bits =
-      std::min(static_cast<int>(std::floor(std::log2(brightest))) + 1, cmodel::find_key("colour.int_bits")->max);
-  std::string flags = fmt::format("--set colour.int_bits={}", bits);
-  const auto set = [&](const char* key, int from, int to) {
-    if (to != from) flags += fmt::format(" --set {}={}", key, to);
-  };
-  set("colour.frac_bits", config.colour_frac_bits, std::min(config.colour_frac_bits, 16 - bits));
-  set("sheet.int_bits", config.sheet_int_bits, std::max(config.sheet_int_bits, bits + config.radial_int_bits));
-  set("pixel.int_bits", config.pixel_int_bits, std::max(config.pixel_int_bits, bits));
-  return flags;
-}
-
 std::vector<Remark> remarks(const DeviceGaussians& device) {
-  std::vector<Remark> said;
-  const auto& report = device.report;
-  if (report.cut > 0) {
-    said.push_back(
-        {Remark::Warning,
-         fmt::format(
-             "{} Gaussians exceed the reach of an ellipse record and were clipped; use a smaller --size or --zoom",
-             grouped(report.cut))});
-  }
-  if (report.thin > 0) {
-    said.push_back({Remark::Warning,
-                    fmt::format("{} Gaussians are so long and thin that an ellipse's words do not hold their shape; "
-                                "`fastsplat errors` says what that costs, under step radius",
-                                grouped(report.thin))});
-  }
-  if (report.saturated > 0) {
-    said.push_back(
-        {Remark::Warning, fmt::format("{} Gaussians are brighter than the input format allows and were clamped; use {}",
-                                      grouped(report.saturated), brighter(device.config, report.brightest))});
-  }
-  if (report.vanished > 0) {
-    said.push_back({Remark::Note, fmt::format("{} Gaussians are too transparent for the input format and vanished",
-                                              grouped(report.vanished))});
-  }
+  std::vector<Remark> said = cli::remarks(device.report, device.config);
   const int one = 1 << device.config.composite_frac_bits;
   const int wanted = static_cast<int>(std::ceil(scene::kFinished * one));
   if (device.config.freeze_below != wanted) {
@@ -258,6 +221,7 @@ Json to_json(const scene::GaussianScene& scene) {
             {"height", description.height}};
   if (cloud.antialiased) json["antialiased"] = true;
   if (cloud.linear) json["linear"] = true;
+  if (description.placed && !description.placed->name.empty()) json["camera"] = description.placed->name;
   if (!cloud.remarks.empty()) json["remarks"] = cloud.remarks;
   return json;
 }

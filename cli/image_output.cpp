@@ -30,7 +30,7 @@ void declare_images(Options& options, std::vector<std::string>& out, std::string
 void write_images(const std::vector<std::string>& paths, const Image& image, const Shown& shown,
                   const images::Metadata& metadata, const Output& output) {
   if (std::ranges::all_of(image.data, [](float value) { return value == 0.0F; }))
-    output.warn("the picture is empty; try another --tf, a larger --opacity-scale or another --zoom");
+    output.warn("the picture is empty: the camera sees nothing, or all that it sees is transparent");
   std::optional<Image> made;
   for (const auto& path : paths) {
     const auto options = options_for(path);

@@ -27,7 +27,8 @@ void declare(Options& options, RenderArguments& to) {
   options.group("Animation");
   options.word("--orbit", to.orbit, "A..B",
                "animate the azimuth from A to B degrees, both included; 0..360 is a full turn");
-  options.flag("--sequence", to.sequence, "animate as described by the scene's [sequence]");
+  options.flag("--sequence", to.sequence,
+               "animate as described by the scene's [sequence]; of 3-D Gaussians, all cameras of --cameras");
   options.integer("--frames", to.frames, 1, scene::kMaxFrames, "N",
                   "number of frames; # in --out become their numbers, from 0");
   options.integer("--keep-memory", to.keep_memory, 0, 1 << 20, "MIB",

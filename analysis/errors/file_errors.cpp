@@ -25,12 +25,24 @@ constexpr std::array<const char*, kAttributes> kNames{
     "position", "rotation", "scale", "opacity", "colour", "harmonics 1", "harmonics 2", "harmonics 3", "lost, added"};
 using Attributes = std::array<bool, kAttributes>;
 
-/// `original` with some attributes of `encoded`.
+/// The same with harmonics to a higher degree, which are 0.
+GaussianCloud raised(const GaussianCloud& cloud, int degree) {
+  GaussianCloud out = cloud;
+  out.degree = degree;
+  out.harmonics.clear();
+  for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
+    const auto own = cloud.harmonics_of(i);
+    out.harmonics.insert(out.harmonics.end(), own.begin(), own.end());
+    out.harmonics.resize((i + 1) * static_cast<std::size_t>(scene::harmonic_count(degree)));
+  }
+  return out;
+}
+
+/// `original` with some attributes of `encoded`; both have the same degree.
 GaussianCloud mixed(const GaussianCloud& original, const GaussianCloud& encoded,
                     const std::vector<std::optional<std::uint32_t>>& matches, const Attributes& taken) {
   if (std::ranges::find(taken, false) == taken.end()) return encoded;
   const bool rest = taken[Rest];
-  const std::size_t terms = original.harmonics_of(0).size();
   GaussianCloud out = original;
   out.antialiased = (rest ? encoded : original).antialiased, out.linear = (rest ? encoded : original).linear;
   out.gaussians.clear(), out.harmonics.clear();
@@ -52,7 +64,7 @@ GaussianCloud mixed(const GaussianCloud& original, const GaussianCloud& encoded,
         if (!taken[static_cast<std::size_t>(Constant + degree)]) continue;
         for (auto k = static_cast<std::size_t>(degree == 0 ? 0 : scene::harmonic_count(degree - 1));
              k < static_cast<std::size_t>(scene::harmonic_count(degree)); ++k)
-          harmonics[k] = k < after.size() ? after[k] : glm::vec3(0.0F);
+          harmonics[k] = after[k];
       }
     }
     out.gaussians.push_back(one);
@@ -62,7 +74,7 @@ GaussianCloud mixed(const GaussianCloud& original, const GaussianCloud& encoded,
     if (used[e] != 0) continue;
     out.gaussians.push_back(encoded.gaussians[e]);
     const auto own = encoded.harmonics_of(e);
-    for (std::size_t k = 0; k < terms; ++k) out.harmonics.push_back(k < own.size() ? own[k] : glm::vec3(0.0F));
+    out.harmonics.insert(out.harmonics.end(), own.begin(), own.end());
   }
   return out;
 }
@@ -90,9 +102,10 @@ std::string decibels_text(const Amount& amount) {
 
 }  // namespace
 
-FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud& encoded, const cmodel::Config& config,
+FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud& other, const cmodel::Config& config,
                        int threads, const Progress& progress) {
-  const GaussianCloud& cloud = *original.cloud;
+  const int degree = std::max(original.cloud->degree, other.degree);
+  const GaussianCloud cloud = raised(*original.cloud, degree), encoded = raised(other, degree);
   const auto matches = matched_gaussians(cloud, encoded);
   FileErrors out{
       .original = cloud.gaussians.size(),
@@ -104,7 +117,7 @@ FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud
       .total = {}};
   std::vector<Attribute> present;
   for (int a = 0; a < kAttributes; ++a) {
-    const bool missing = a > Constant && a < Rest && a - Constant > cloud.degree;
+    const bool missing = a > Constant && a < Rest && a - Constant > degree;
     if (!missing) present.push_back(static_cast<Attribute>(a));
   }
   std::size_t done = 0;

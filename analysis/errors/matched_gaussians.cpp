@@ -79,27 +79,47 @@ double unlike(const GaussianCloud& from, std::size_t a, const GaussianCloud& to,
 }  // namespace
 
 std::vector<std::optional<std::uint32_t>> matched_gaussians(const GaussianCloud& from, const GaussianCloud& to) {
+  struct Choice {
+    float cost = 0.0F;
+    std::uint32_t number = 0;
+  };
   const NearPoints points(to);
   const std::size_t count = from.gaussians.size();
-  std::vector<std::optional<std::uint32_t>> out(count);
-  std::vector<char> taken(to.gaussians.size(), 0);
+  std::vector<std::vector<Choice>> choices(count);  // the best last
   std::size_t in_order = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const auto near = points.near(from.gaussians[i].position);
     // Places count in units of the distance to the last of the nearest.
     const double unit = near.back().squared > 0.0 ? near.back().squared : 1.0;
-    double least = 0.0;
     for (const auto& [squared, number] : near) {
       in_order += number == i ? 1U : 0U;
-      const double cost = squared / unit + unlike(from, i, to, number);
-      if (taken[number] != 0 || (out[i] && !(cost < least))) continue;
-      least = cost, out[i] = number;
+      choices[i].push_back({static_cast<float>(squared / unit + unlike(from, i, to, number)), number});
     }
-    if (out[i]) taken[*out[i]] = 1;
+    std::ranges::stable_sort(choices[i], std::ranges::greater{}, &Choice::cost);
   }
+  std::vector<std::optional<std::uint32_t>> out(count);
   constexpr double kMost = 0.9;
-  if (count == to.gaussians.size() && static_cast<double>(in_order) > kMost * static_cast<double>(count))
+  if (count == to.gaussians.size() && static_cast<double>(in_order) > kMost * static_cast<double>(count)) {
     for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint32_t>(i);
+    return out;
+  }
+  // Stable matching (Gale and Shapley): each asks for its next choice; who is asked keeps the more alike.
+  std::vector<Choice> holder(to.gaussians.size());  // its cost and who holds it, if held
+  std::vector<char> held(to.gaussians.size(), 0);
+  for (std::size_t first = 0; first < count; ++first) {
+    for (std::size_t i = first; !choices[i].empty();) {
+      const auto [cost, number] = choices[i].back();
+      choices[i].pop_back();
+      if (held[number] != 0 && !(cost < holder[number].cost)) continue;
+      const std::size_t before = holder[number].number;
+      const bool free = held[number] == 0;
+      held[number] = 1, holder[number] = {cost, static_cast<std::uint32_t>(i)};
+      out[i] = number;
+      if (free) break;
+      out[before].reset();
+      i = before;
+    }
+  }
   return out;
 }
 

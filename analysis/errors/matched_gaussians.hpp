@@ -10,8 +10,8 @@
 
 namespace fastsplat::analysis {
 
-/// For each Gaussian of `from` the one of `to`, each at most once. By position among the nearest, then by scales,
-/// opacity and colour. Clouds of one size whose order fits keep it.
+/// For each Gaussian of `from` the one of `to`, each at most once: a stable matching among the nearest by position, of
+/// likeness in position, scales, opacity and colour. Clouds of one size whose order fits keep it.
 std::vector<std::optional<std::uint32_t>> matched_gaussians(const scene::GaussianCloud& from,
                                                             const scene::GaussianCloud& to);
 

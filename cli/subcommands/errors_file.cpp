@@ -2,6 +2,7 @@
 // fastsplat errors file: what an encoded file of Gaussians costs, and the device behind it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/file_errors.hpp"
@@ -56,6 +57,9 @@ ExitCode run(const ErrorsFileArguments& arguments) {
     ProgressBar bar("errors", watching(arguments.common));
     errors = analysis::file_errors(scene, encoded, config, arguments.common.threads, bar.callback());
   }
+  if (10 * errors.matched < 9 * std::min(errors.original, errors.encoded))
+    output.warn(fmt::format("only {} found again: shares of attributes are of these alone",
+                            counted(errors.matched, "Gaussian")));
   output.line(errors_heading(summary(scene), config) + analysis::to_text(errors, arguments.lsb_bits));
   nlohmann::ordered_json json = errors_identity("errors file", summary(scene), config);
   json["files"] = {scene.cloud->source, encoded.source};
@@ -66,7 +70,8 @@ ExitCode run(const ErrorsFileArguments& arguments) {
 }
 
 void declare(Options& options, ErrorsFileArguments& to) {
-  options.positional("original", to.original, "the scene before encoding: a file, shells:N or cloud:N");
+  options.positional("original", to.original,
+                     "the scene before encoding: a file, or a built-in scene such as shells:2000");
   options.positional("encoded", to.encoded, "the same scene, encoded");
   declare(options, to.scene);
   declare(options, to.gaussians);

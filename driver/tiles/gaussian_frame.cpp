@@ -131,7 +131,7 @@ void GaussianFrame::quantise_all(const scene::GaussianScene& scene, std::span<co
     for (std::size_t c = 0; c < 4; ++c) {
       const double value = splat.opacity * (c < 3 ? splat.colour[static_cast<int>(c)] : 1.0);
       const Quantised word = quantise(value, sample);
-      report.brightest = std::max(report.brightest, value);
+      if (c < 3) report.brightest = std::max(report.brightest, splat.colour[static_cast<int>(c)]);
       words.colour[c] = static_cast<std::uint32_t>(word.word);
       saturated = saturated || word.saturated;
     }

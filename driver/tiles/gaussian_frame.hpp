@@ -47,7 +47,7 @@ struct GaussianReport {
   std::uint64_t drawn = 0;      ///< Gaussians that have records if all tiles are written
   std::uint64_t vanished = 0;   ///< Gaussians whose words are all 0
   std::uint64_t saturated = 0;  ///< Gaussians brighter than the input format holds
-  double brightest = 0.0;       ///< largest product of opacity and colour
+  double brightest = 0.0;       ///< largest colour
   std::uint64_t cut = 0;        ///< Gaussians that reach farther into the picture than a record can express
   std::uint64_t thin = 0;       ///< Gaussians so long and thin that an ellipse's words do not hold their shape
   std::uint64_t records = 0;    ///< over all tiles

@@ -141,9 +141,11 @@ void crop(GaussianCloud& cloud, const RealBox& box) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
-    const glm::dvec3 at(cloud.gaussians[i].position);
-    low = glm::min(low, at), high = glm::max(high, at);
-    if (glm::any(glm::lessThan(at, box.low)) || glm::any(glm::greaterThan(at, box.high))) continue;
+    const glm::vec3 at = cloud.gaussians[i].position;
+    low = glm::min(low, glm::dvec3(at)), high = glm::max(high, glm::dvec3(at));
+    // As floats: the ends are included, and 0.6 is not the float nearest to it.
+    if (glm::any(glm::lessThan(at, glm::vec3(box.low))) || glm::any(glm::greaterThan(at, glm::vec3(box.high))))
+      continue;
     cloud.gaussians[kept] = cloud.gaussians[i];
     const auto from = cloud.harmonics.begin() + static_cast<std::ptrdiff_t>(i * count);
     std::copy_n(from, count, cloud.harmonics.begin() + static_cast<std::ptrdiff_t>(kept * count));

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/json_file.hpp"
 #include "base/json_text.hpp"
+#include "base/lower_case.hpp"
 #include "base/number_text.hpp"
 #include "base/printable.hpp"
 
@@ -83,6 +84,8 @@ class Reader {
   }
 
   PlacedCamera of_trainer(const Json& one) const;
+  /// Of a frame of transforms.json, or of the file.
+  void require_pinhole(const Json& own) const;
   PlacedCamera of_transforms(const Json& frame);
 
   const std::filesystem::path& path_;
@@ -129,7 +132,25 @@ PlacedCamera Reader::of_trainer(const Json& one) const {
           .intrinsics = Intrinsics{focal(*fx, *fy), {0.5 * (width - 1), 0.5 * (height - 1)}, width, height}};
 }
 
+void Reader::require_pinhole(const Json& own) const {
+  constexpr std::array kPinholes{"opencv", "pinhole", "simple_pinhole", "simple_radial", "radial", "perspective"};
+  for (const Json* object : {&own, &file_}) {
+    for (const char* key : {"camera_model", "camera_type"}) {
+      const auto model = object->find(key);
+      if (model == object->end()) continue;
+      if (!model->is_string() ||
+          std::find(kPinholes.begin(), kPinholes.end(), lower_case(model->get<std::string>())) == kPinholes.end())
+        refuse("the camera model is not supported", "a pinhole", short_text(*model));
+    }
+    for (const char* key : {"is_fisheye", "orthographic", "equirectangular"}) {
+      const auto is = object->find(key);
+      if (is != object->end() && *is != false) refuse("the camera model is not supported", "a pinhole", key);
+    }
+  }
+}
+
 PlacedCamera Reader::of_transforms(const Json& frame) {
+  require_pinhole(frame);
   const auto m = matrix(frame, "transform_matrix", 3, 4);
   const glm::ivec2 usual = size_.value_or(glm::ivec2(0));
   const int width = side(frame, "w", usual.x), height = side(frame, "h", usual.y);
@@ -161,12 +182,6 @@ CameraFile Reader::read() {
   const bool of_trainer_file = file_.is_array();
   if (!of_trainer_file && !(file_.is_object() && file_.contains("frames") && file_["frames"].is_array()))
     refuse(kind.what, kind.expected, "JSON without a list of cameras");
-  if (!of_trainer_file && file_.contains("camera_model")) {
-    const Json& model = file_["camera_model"];
-    constexpr std::array kPinholes{"OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "SIMPLE_RADIAL", "RADIAL", "PERSPECTIVE"};
-    if (!model.is_string() || std::ranges::find(kPinholes, model.get<std::string>()) == kPinholes.end())
-      refuse("the camera model is not supported", "a pinhole", short_text(model));
-  }
   CameraFile out;
   const Json list = of_trainer_file ? file_ : file_["frames"];
   for (const Json& one : list) {
@@ -176,11 +191,11 @@ CameraFile Reader::read() {
   }
   where_.clear();
   if (out.cameras.empty()) refuse("no cameras", "at least one", "an empty list");
-  if (distorted_) out.remarks.emplace_back("the distortion of lenses is not drawn: pictures are those of a pinhole");
+  if (distorted_)
+    out.remarks.push_back("the lens distortion in " + path_.filename().string() +
+                          " is not drawn: cameras are pinholes");
   return out;
 }
-
-std::string stem(const std::string& name) { return std::filesystem::path(name).stem().string(); }
 
 }  // namespace
 
@@ -190,21 +205,29 @@ CameraFile load_cameras(const std::filesystem::path& path, const std::optional<g
 
 std::size_t find_camera(const CameraFile& file, const std::string& name) {
   const auto& cameras = file.cameras;
-  for (const bool whole : {true, false}) {
-    const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const PlacedCamera& one) {
-      return !one.name.empty() &&
-             (whole ? one.name == name : stem(one.name) == name || std::filesystem::path(one.name).filename() == name);
-    });
-    if (found != cameras.end()) return static_cast<std::size_t>(found - cameras.begin());
+  const auto named = [&](const PlacedCamera& one) { return one.name == name; };
+  const auto of_file = [&](const PlacedCamera& one) {
+    const std::filesystem::path path(one.name);
+    return !one.name.empty() && (path.filename() == name || path.stem() == name);
+  };
+  const auto refuse = [&](const char* what) {
+    throw_usage({.where = "--view",
+                 .what = what,
+                 .expected = fmt::format("0 to {}, or a name such as '{}'", cameras.size() - 1,
+                                         printable(cameras.front().name.empty() ? "0" : cameras.front().name)),
+                 .got = "'" + printable(name) + "'",
+                 .fix = "use one of these"});
+  };
+  auto found = std::find_if(cameras.begin(), cameras.end(), named);
+  if (found == cameras.end()) {
+    found = std::find_if(cameras.begin(), cameras.end(), of_file);
+    if (std::count_if(cameras.begin(), cameras.end(), of_file) > 1) refuse("several cameras have this file name");
   }
+  if (found != cameras.end()) return static_cast<std::size_t>(found - cameras.begin());
   const auto number = integer_from<std::size_t>(name);
-  if (number && *number < cameras.size()) return *number;
-  throw_usage({.where = "--view",
-               .what = "no such camera",
-               .expected = fmt::format("0 to {}, or a name such as '{}'", cameras.size() - 1,
-                                       printable(cameras.front().name.empty() ? "0" : cameras.front().name)),
-               .got = "'" + printable(name) + "'",
-               .fix = "use one of these"});
+  // "007" is a name.
+  if (!number || *number >= cameras.size() || std::to_string(*number) != name) refuse("no such camera");
+  return *number;
 }
 
 Intrinsics resized(const Intrinsics& intrinsics, int width, int height) {

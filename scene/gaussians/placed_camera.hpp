@@ -37,8 +37,8 @@ struct CameraFile {
 /// content. A file without sizes gets `size`. UserError (Input) if it is neither or damaged.
 CameraFile load_cameras(const std::filesystem::path& path, const std::optional<glm::ivec2>& size);
 
-/// Index of the camera with this name, as a whole or without folder and ending, else this number, from 0. UserError
-/// (Usage) if there is none.
+/// Index of the camera with this name, or with this file name with or without ending, else of this number, from 0.
+/// UserError (Usage) if there is none, or several with the file name.
 std::size_t find_camera(const CameraFile& file, const std::string& name);
 
 /// The intrinsics that shows the same at another size: centred, and everything of `intrinsics` is in the picture.

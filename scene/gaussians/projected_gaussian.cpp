@@ -11,8 +11,8 @@
 namespace fastsplat::scene {
 namespace {
 
-/// Largest distance from the axis, in half pictures, at which the projection is linearised. Farther out the
-/// linearisation is useless and footprints would grow without bound.
+/// Largest distance from the middle of the picture, in half pictures, at which the projection is linearised. Farther
+/// out the linearisation is useless and footprints would grow without bound.
 constexpr double kWidest = 1.3;
 
 glm::dvec3 world_position(const GaussianScene& scene, const Gaussian& gaussian) {
@@ -43,10 +43,11 @@ ScreenShape shape_of(const GaussianScene& scene, const glm::dmat3& sigma, const 
   // x = f X / Z: dx = f/Z dX - f X/Z^2 dZ, with f/Z the scale there.
   const double distance = camera.eye_distance() + view.z, focal = scale * distance;
   const double scale_y = scale * camera.stretch();
-  const double widest_x = kWidest * 0.5 * camera.width() / focal;
-  const double widest_y = kWidest * 0.5 * camera.height() / (focal * camera.stretch());
-  const double along_x = std::clamp(view.x / distance, -widest_x, widest_x);
-  const double along_y = std::clamp(view.y / distance, -widest_y, widest_y);
+  const double width = kWidest * 0.5 * camera.width(), height = kWidest * 0.5 * camera.height();
+  const glm::dvec2 off = camera.centre() - 0.5 * glm::dvec2(camera.width() - 1, camera.height() - 1);
+  const double focal_y = focal * camera.stretch();
+  const double along_x = std::clamp(view.x / distance, (-width - off.x) / focal, (width - off.x) / focal);
+  const double along_y = std::clamp(view.y / distance, (-height - off.y) / focal_y, (height - off.y) / focal_y);
   return squeezed(sigma, {scale, 0, -scale * along_x}, {0, scale_y, -scale_y * along_y});
 }
 

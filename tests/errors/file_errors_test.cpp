@@ -85,6 +85,14 @@ TEST(FileErrors, GaussiansAreFoundAgain) {
     }
     std::printf("[figure] %s, rounded and permuted: %zu of %zu found again\n", name, right, order.size());
     EXPECT_EQ(right, order.size());
+    // Many at one place: the others decide.
+    for (scene::Gaussian& one : rounded.gaussians) one.position = glm::round(one.position * 8.0F) / 8.0F;
+    std::size_t found = 0, lost = 0;
+    const auto coarse = matched_gaussians(cloud, rounded);
+    for (std::size_t i = 0; i < coarse.size(); ++i)
+      found += coarse[i] == order[i] ? 1U : 0U, lost += coarse[i] ? 0U : 1U;
+    std::printf("[figure] %s, many at one place: %zu found again, %zu without a match\n", name, found, lost);
+    EXPECT_GT(found, order.size() * 3 / 4);
     // In the same order nothing is searched, however alike neighbours are.
     GaussianCloud alike = cloud;
     for (scene::Gaussian& one : alike.gaussians) one.scale = glm::vec3(0.02F), one.opacity = 0.5F;
@@ -109,6 +117,25 @@ TEST(FileErrors, TheSameSceneInAnotherOrderCostsNothing) {
     }
   }
   EXPECT_NEAR(device, 1.0, 1e-3);  // golden's picture has floats
+}
+
+// Pruned Gaussians take no neighbour's partner.
+TEST(FileErrors, PrunedGaussiansAreLost) {
+  const GaussianCloud cloud = scene::make_synthetic_gaussians("cloud:1000");
+  GaussianCloud pruned = cloud;
+  pruned.gaussians.clear(), pruned.harmonics.clear();
+  for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
+    if (i % 20 == 7) continue;
+    pruned.gaussians.push_back(cloud.gaussians[i]);
+    const auto own = cloud.harmonics_of(i);
+    pruned.harmonics.insert(pruned.harmonics.end(), own.begin(), own.end());
+  }
+  const auto matches = matched_gaussians(cloud, pruned);
+  for (std::size_t i = 0; i < matches.size(); ++i) EXPECT_EQ(matches[i].has_value(), i % 20 != 7) << i;
+  const FileErrors errors = errors_of(cloud, pruned);
+  std::printf("[figure] share of lost Gaussians = %.4f\n", share(errors, "lost, added"));
+  EXPECT_EQ(errors.matched, 950U);
+  EXPECT_GT(share(errors, "lost, added"), 0.99);
 }
 
 TEST(FileErrors, TheAttributeThatChangedHasTheShare) {
@@ -178,6 +205,11 @@ TEST(FileErrors, LostHarmonicsAreOfTheirDegrees) {
   const std::string text = to_text(errors, 8);
   for (const char* word : {"500 matched", "= file", "= device", "both", "100.0 %"})
     EXPECT_NE(text.find(word), std::string::npos) << text;
+  // Added ones are of their degrees, too.
+  double added = 0.0;
+  const FileErrors back = errors_of(flat, cloud);
+  for (const int degree : {1, 2, 3}) added += share(back, "harmonics " + std::to_string(degree));
+  EXPECT_GT(added, 0.95);
   // Degree 0 has no rows of harmonics.
   EXPECT_EQ(std::ranges::count_if(errors_of(flat, flat).parts,
                                   [](const FileError& part) { return part.name.starts_with("harmonics"); }),

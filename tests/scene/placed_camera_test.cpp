@@ -26,7 +26,7 @@ std::shared_ptr<const GaussianCloud> cloud(const char* name = "cloud:300") {
 /// A camera with everything that a pinhole has: an oblique view, two focal lengths, a principal point off the middle.
 struct Oblique {
   glm::dvec3 eye{0.3, -0.9, -2.1}, right, down, forward;
-  double fx = 410.0, fy = 395.0, cx = 190.0, cy = 93.5;  ///< of the convention in which the first centre is 0.5
+  double fx = 410.0, fy = 395.0, cx = 330.0, cy = 40.5;  ///< of the convention in which the first centre is 0.5
   int width = 400, height = 220;
 
   Oblique() {
@@ -242,14 +242,17 @@ TEST(PlacedCamera, FilesOfBlenderHaveAnAngleAndNoSize) {
 
 TEST(PlacedCamera, CamerasAreFoundByNameAndNumber) {
   CameraFile file;
-  for (const char* name : {"images/a.png", "images/b.png", "0", "b"}) file.cameras.push_back({.name = name});
+  for (const char* name : {"images/a.png", "images/b.png", "0", "b", "left/c.png", "right/c.png", "d"})
+    file.cameras.push_back({.name = name});
   EXPECT_EQ(find_camera(file, "images/b.png"), 1U);
   EXPECT_EQ(find_camera(file, "a"), 0U);
   EXPECT_EQ(find_camera(file, "a.png"), 0U);
   EXPECT_EQ(find_camera(file, "b"), 3U) << "a whole name comes first";
   EXPECT_EQ(find_camera(file, "0"), 2U) << "a name comes before a number";
   EXPECT_EQ(find_camera(file, "1"), 1U);
-  for (const char* none : {"4", "-1", "c", ""}) EXPECT_THROW(find_camera(file, none), UserError) << none;
+  EXPECT_EQ(find_camera(file, "left/c.png"), 4U);
+  for (const char* none : {"7", "01", "-1", "c", "c.png", "e", ""})
+    EXPECT_THROW(find_camera(file, none), UserError) << none;
 }
 
 TEST(PlacedCamera, DamagedFilesAreRefusedInOneLine) {
@@ -282,6 +285,9 @@ TEST(PlacedCamera, DamagedFilesAreRefusedInOneLine) {
       {with(with(whole, "fl_x", {}), "fl_y", {}), "fl_x or camera_angle_x"},
       {with(with(with(whole, "fl_x", {}), "fl_y", {}), "camera_angle_x", 3.2), "0 to 3 radians"},
       {with(whole, "camera_model", "OPENCV_FISHEYE"), "a pinhole"},
+      {with(whole, "is_fisheye", true), "a pinhole"},
+      {with(whole, "camera_type", "equirectangular"), "a pinhole"},
+      {frames(with(frame, "camera_model", "OPENCV_FISHEYE")), "a pinhole"},
       {with(whole, "w", {}), "add --size"},
   };
   for (const auto& [json, word] : cases) {

@@ -61,6 +61,13 @@ void check_bounded(const stages::Chain& chain) {
   // Only circles in sheets of colours are covered by the proof.
   const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
   scene::check_capability(chain.scene(), {"error bound", methods, 0u});
+  if (chain.config().colour_int_bits > 0) {
+    throw_usage({.where = "colour.int_bits",
+                 .what = "no error bound is proved of colours above 1",
+                 .expected = "0",
+                 .got = std::to_string(chain.config().colour_int_bits),
+                 .fix = "add --set colour.int_bits=0"});
+  }
 }
 
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,

@@ -53,7 +53,8 @@ class NearPoints {
     search(beside < 0.0 ? before : behind, (axis + 1) % 3, at, found);
     const glm::dvec3 apart = glm::dvec3(at) - glm::dvec3(cloud_.gaussians[part[middle]].position);
     const Found here{glm::dot(apart, apart), part[middle]};
-    const auto place = std::ranges::upper_bound(found, here.squared, {}, &Found::squared);
+    const auto place = std::upper_bound(found.begin(), found.end(), here.squared,
+                                        [](double squared, const Found& one) { return squared < one.squared; });
     found.insert(place, here);
     if (found.size() > kNearest) found.pop_back();
     if (found.size() < kNearest || beside * beside <= found.back().squared)
@@ -95,7 +96,7 @@ std::vector<std::optional<std::uint32_t>> matched_gaussians(const GaussianCloud&
       in_order += number == i ? 1U : 0U;
       choices[i].push_back({static_cast<float>(squared / unit + unlike(from, i, to, number)), number});
     }
-    std::ranges::stable_sort(choices[i], std::ranges::greater{}, &Choice::cost);
+    std::ranges::stable_sort(choices[i], [](const Choice& a, const Choice& b) { return a.cost > b.cost; });
   }
   std::vector<std::optional<std::uint32_t>> out(count);
   constexpr double kMost = 0.9;

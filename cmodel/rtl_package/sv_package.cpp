@@ -180,8 +180,7 @@ std::string sv_package(const Config& config) {
   p.number("FACTOR_BITS", config.opacity_frac_bits + 1);
   p.number("TRANS_BITS", transmittance_bits);
   p.number("TRANS_FRAC", config.composite_frac_bits);
-  p.number("SLAB_BITS", bits_for(config.slab_format().max));
-  p.number("COMPOSITED_BITS", composited_bits);
+  p.number("COLOUR_INT", config.colour_int_bits);
   p.number("STATE_BITS", std::max<std::int64_t>(sheet_bits, composited_bits));
   p.number("FREEZE_BELOW", config.freeze_below);
   p.number("COMPOSITE_LANES", config.composited_at_once());

@@ -21,18 +21,16 @@ module fastsplat_composite_lane (
     output logic [3:0]                             saturated_o
 );
   localparam int DB = fastsplat_pkg::STATE_BITS;
-  localparam int TB = fastsplat_pkg::TRANS_BITS;
-  localparam int LB = fastsplat_pkg::SLAB_BITS;
-  localparam int CB = fastsplat_pkg::COMPOSITED_BITS;
+  localparam int TB = fastsplat_pkg::TRANS_BITS + fastsplat_pkg::COLOUR_INT;  // of colours; T has zeros above
   localparam int SB = fastsplat_pkg::SHEET_BITS;
-  `FASTSPLAT_NARROW(narrow_light, TB + LB, LB, LIGHT)
+  `FASTSPLAT_NARROW(narrow_light, 2 * TB, TB, LIGHT)
   `FASTSPLAT_NARROW(narrow_absorbed, 2 * TB, TB, ABSORBED)
-  `FASTSPLAT_NARROW(narrow_colour, CB + 1, CB, OVER)
+  `FASTSPLAT_NARROW(narrow_colour, TB + 1, TB, OVER)
   `FASTSPLAT_NARROW(narrow_sum, SB + 1, SB, SUM_OVER)
 
   // {overflow, word} with the word as wide as the state
-  function automatic logic [DB:0] colour_to_state(input logic [CB:0] narrowed);
-    colour_to_state = {narrowed[CB], DB'(narrowed[CB-1:0])};
+  function automatic logic [DB:0] colour_to_state(input logic [TB:0] narrowed);
+    colour_to_state = {narrowed[TB], DB'(narrowed[TB-1:0])};
   endfunction
   function automatic logic [DB:0] sum_to_state(input logic [SB:0] narrowed);
     sum_to_state = {narrowed[SB], DB'(narrowed[SB-1:0])};
@@ -56,7 +54,7 @@ module fastsplat_composite_lane (
     if (sums) stepped = sum_to_state(narrow_sum({1'b0, state[SB-1:0]} + {1'b0, light[SB-1:0]}));
     else if (frozen) stepped = {1'b0, state};
     else if (is_transmittance) stepped = {1'b0, state - light};
-    else stepped = colour_to_state(narrow_colour({1'b0, state[CB-1:0]} + {1'b0, light[CB-1:0]}));
+    else stepped = colour_to_state(narrow_colour({1'b0, state[TB-1:0]} + {1'b0, light[TB-1:0]}));
   endfunction
 
   for (genvar c = 0; c < 4; c++) begin : gen_channel
@@ -66,8 +64,8 @@ module fastsplat_composite_lane (
       if (valid_i[4]) begin
         state_k5_q <= state_i[c*DB+:DB];
         light_k5_q <= sum_mode ? slab_i[c*DB+:DB] :
-                      (c == 3) ? DB'(TB'(narrow_absorbed((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB])))) :
-                                 DB'(LB'(narrow_light((TB + LB)'(transmittance) * (TB + LB)'(slab_i[c*DB+:LB]))));
+                      DB'(TB'((c == 3) ? narrow_absorbed((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB])) :
+                                         narrow_light((2 * TB)'(transmittance) * (2 * TB)'(slab_i[c*DB+:TB]))));
       end
       if (valid_i[5]) {saturated_o[c], state_o[c*DB+:DB]} <= stepped(sum_mode, frozen_k5_q, c == 3, state_k5_q, light_k5_q);
     end

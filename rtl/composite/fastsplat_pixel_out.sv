@@ -32,8 +32,7 @@ module fastsplat_pixel_out (
   localparam int P = fastsplat_pkg::LANES;
   localparam int DB = fastsplat_pkg::STATE_BITS;
   localparam int SB = fastsplat_pkg::SHEET_BITS;
-  localparam int TB = fastsplat_pkg::TRANS_BITS;
-  localparam int CB = fastsplat_pkg::COMPOSITED_BITS;
+  localparam int TB = fastsplat_pkg::TRANS_BITS + fastsplat_pkg::COLOUR_INT;  // of colours; T has zeros above
   localparam int TF = fastsplat_pkg::TRANS_FRAC;
   localparam int PB = fastsplat_pkg::PIXEL_BITS;
   localparam int AB = fastsplat_pkg::ADDR_BITS;
@@ -92,15 +91,15 @@ module fastsplat_pixel_out (
   assign picture_row_o = valid_r1_q ? P'(1) << row_r1_q : '0;
 
   // r1: the row narrowed to output words, {overflow, word}
-  `FASTSPLAT_NARROW(narrow_composited, CB, PB, PIXEL_OUT)
+  `FASTSPLAT_NARROW(narrow_composited, TB, PB, PIXEL_OUT)
   `FASTSPLAT_NARROW(narrow_sum, SB, PB, PIXEL_SUM)
   for (genvar g = 0; g < P; g++) begin : gen_pixel
     for (genvar c = 0; c < 4; c++) begin : gen_channel
       logic [DB-1:0] word;
-      logic [CB-1:0] composited;
+      logic [TB-1:0] composited;
       logic [PB:0] pixel_q;
       assign word = picture_i[(4*g+c)*DB+:DB];
-      assign composited = (c == 3) ? (CB'(1) << TF) - CB'(word[TB-1:0]) : word[CB-1:0];
+      assign composited = (c == 3) ? (TB'(1) << TF) - word[TB-1:0] : word[TB-1:0];
       always_ff @(posedge clk_i) begin
         if ((enable && valid_r1_q) || (`FASTSPLAT_FAULT(HELD_PAYLOAD) && running_q)) begin
           pixel_q <= (mode_i == 2'd2) ? narrow_sum(word[SB-1:0]) : narrow_composited(composited);

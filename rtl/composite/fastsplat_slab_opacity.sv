@@ -24,21 +24,28 @@ module fastsplat_slab_opacity (
   localparam int FB = fastsplat_pkg::FACTOR_BITS;
   localparam int REM = fastsplat_pkg::REM_BITS;
   localparam int TB = fastsplat_pkg::TRANS_BITS;
-  localparam int LB = fastsplat_pkg::SLAB_BITS;
+  localparam int LB = (fastsplat_pkg::COLOUR_INT == 0) ? TB : TB - 1 + fastsplat_pkg::COLOUR_INT;  // of colours
   localparam int DB = fastsplat_pkg::STATE_BITS;
 
   `FASTSPLAT_NARROW(narrow_fall, FB + REM, FB, FALL)
   `FASTSPLAT_NARROW(narrow_colour, SB + FB, LB, SLAB_COLOUR)
-  `FASTSPLAT_NARROW(narrow_opacity, SB + FB, TB, SLAB_OPACITY)
+  `FASTSPLAT_NARROW(narrow_to_opacity, SB + FB, TB, SLAB_OPACITY)
   `FASTSPLAT_NARROW(narrow_added_colour, SB, LB, ADDED_COLOUR)
-  `FASTSPLAT_NARROW(narrow_added_opacity, SB, TB, ADDED_OPACITY)
+  `FASTSPLAT_NARROW(narrow_added_to_opacity, SB, TB, ADDED_OPACITY)
 
   // {overflow, word} with the word as wide as the state
-  function automatic logic [DB:0] opacity_to_state(input logic [TB:0] narrowed);
-    opacity_to_state = {narrowed[TB], DB'(narrowed[TB-1:0])};
+  function automatic logic [DB:0] to_state(input logic [LB:0] narrowed);
+    to_state = {narrowed[LB], DB'(narrowed[LB-1:0])};
   endfunction
-  function automatic logic [DB:0] colour_to_state(input logic [LB:0] narrowed);
-    colour_to_state = {narrowed[LB], DB'(narrowed[LB-1:0])};
+  // An opacity as wide as a colour.
+  function automatic logic [LB:0] widened(input logic [TB:0] narrowed);
+    widened = {narrowed[TB], LB'(narrowed[TB-1:0])};
+  endfunction
+  function automatic logic [LB:0] narrow_opacity(input logic [SB+FB-1:0] value);
+    narrow_opacity = widened(narrow_to_opacity(value));
+  endfunction
+  function automatic logic [LB:0] narrow_added_opacity(input logic [SB-1:0] value);
+    narrow_added_opacity = widened(narrow_added_to_opacity(value));
   endfunction
 
   logic [2*FB-1:0] segment_k2;
@@ -70,11 +77,10 @@ module fastsplat_slab_opacity (
       if (valid_i[2]) sum_k3_q <= sum_k2_q;
       if (valid_i[3]) begin
         case (mode_i)
-          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= (c == 3) ?
-              opacity_to_state(narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q))) :
-              colour_to_state(narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
-          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= (c == 3) ?
-              opacity_to_state(narrow_added_opacity(sum_k3_q)) : colour_to_state(narrow_added_colour(sum_k3_q));
+          2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ?
+              narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)) :
+              narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
+          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ? narrow_added_opacity(sum_k3_q) : narrow_added_colour(sum_k3_q));
           default: {saturated_o[c], slab_o[c*DB+:DB]} <= {1'b0, DB'(sum_k3_q)};
         endcase
       end

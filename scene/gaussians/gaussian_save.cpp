@@ -65,7 +65,7 @@ std::size_t moved(const GaussianCloud& cloud, const std::vector<double>& roundin
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = [&](double share) {
       const auto nth = places.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(places.size() - 1));
-      std::ranges::nth_element(places, nth);
+      std::nth_element(places.begin(), nth, places.end());
       return static_cast<double>(*nth);
     };
     std::ranges::transform(cloud.gaussians, places.begin(), [axis](const Gaussian& one) { return one.position[axis]; });

@@ -27,7 +27,8 @@ std::vector<std::size_t> morton_order(const GaussianCloud& cloud) {
     std::ranges::sort(sorted);
     for (std::size_t i = 0; i < codes.size(); ++i) {
       constexpr std::uint64_t kSteps = std::uint64_t{1} << 21U;
-      const auto rank = std::ranges::lower_bound(sorted, cloud.gaussians[i].position[axis]) - sorted.begin();
+      const auto rank =
+          std::lower_bound(sorted.begin(), sorted.end(), cloud.gaussians[i].position[axis]) - sorted.begin();
       codes[i] |= spread(static_cast<std::uint64_t>(rank) * kSteps / sorted.size()) << static_cast<unsigned>(axis);
     }
   }

@@ -18,7 +18,7 @@ inline PortBits port_bits(const cmodel::Config& config) {
   const int sheet = config.sheet_int_bits + config.sheet_frac_bits;
   return {.weight = config.radial_int_bits + config.radial_frac_bits,
           .sheet = sheet,
-          .state = std::max(sheet, config.composite_frac_bits + 1)};
+          .state = std::max(sheet, config.composite_frac_bits + 1 + config.colour_int_bits)};
 }
 
 }  // namespace fastsplat::testbench

@@ -74,7 +74,7 @@ TEST(GaussiansRun, TheRtlIsTheModelAndTakesItsCycles) {
   expect_success(fastsplat({"compare", folder / "model.exr", folder / "rtl.exr", "--max-lsb", "0"}));
   const Json verified = Json::parse(with({"verify"}, {"--json", "-"}).out);
   EXPECT_EQ(verified["mismatches"], 0);
-  const Json random = Json::parse(fastsplat({"verify", "--random", "400", "--json", "-", "--config",
+  const Json random = Json::parse(fastsplat({"verify", "--random", "2000", "--json", "-", "--config",
                                              FASTSPLAT_SOURCE_DIR "/configs/faults/westover.toml", "--set",
                                              "colour.int_bits=1", "--set", "pixel.int_bits=1"})
                                       .out);

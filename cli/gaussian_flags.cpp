@@ -124,7 +124,8 @@ void check_cameras(const GaussianFlags& flags, const SceneFlags& scene) {
   for (const Flag& placed : {cameras, pose, eye})
     for (const Flag& other : {flat, setting("--azimuth"), setting("--elevation"), setting("--zoom")})
       both(placed, other);
-  for (const Flag& placed : {cameras, pose}) both(placed, setting("--roll"));
+  for (const Flag& placed : {cameras, pose})
+    for (const Flag& other : {setting("--roll"), Flag{"--up", flags.up.has_value()}}) both(placed, other);
   both(cameras, setting("--fov"));
 }
 

@@ -30,7 +30,7 @@ void declare(Options& options, GaussianFlags& to);
 /// A view and its display settings.
 struct GaussianView {
   scene::GaussianDescription description;
-  scene::SceneDescription shown;       ///< only `display` is used
+  scene::SceneDescription shown;       ///< of it `display` and, for animations, `camera`
   std::optional<scene::RealBox> crop;  ///< Gaussians whose centres are outside are ignored
   std::optional<glm::ivec2> size;      ///< --size
   golden::GaussianOrder order = golden::GaussianOrder::Centres;

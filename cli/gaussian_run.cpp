@@ -90,7 +90,8 @@ void check_frames(const RenderArguments& arguments, const std::vector<scene::Gau
 ExitCode run_frames(const RenderArguments& arguments, const GaussianRenderer& renderer, const GaussianView& view,
                     const std::vector<scene::GaussianDescription>& frames, const Output& output) {
   const int count = static_cast<int>(frames.size());
-  const scene::GaussianScene first = build(arguments.gaussians, view);
+  scene::GaussianScene first = build(arguments.gaussians, view);
+  if (first.description.placed) first.description.placed->name.clear();  // the summary is of all frames
   output.remark(cli::remarks(*first.cloud));
   output.line(fmt::format("{}, {}", summary(first), counted(frames.size(), "frame")));
   const auto frame = [&](int number) {

@@ -19,7 +19,7 @@ using scene::GaussianCloud;
 using stages::Picture;
 using Json = nlohmann::ordered_json;
 
-/// In the order in which they join. The last is everything else: Gaussians without a match, and what the header says.
+/// In the order in which they join. The last is everything else: Gaussians without a match, and anti-aliasing.
 enum Attribute { Position, Rotation, Scale, Opacity, Constant, Degree1, Degree2, Degree3, Rest, kAttributes };
 constexpr std::array<const char*, kAttributes> kNames{
     "position", "rotation", "scale", "opacity", "colour", "harmonics 1", "harmonics 2", "harmonics 3", "lost, added"};
@@ -121,15 +121,15 @@ FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud
     if (!missing) present.push_back(static_cast<Attribute>(a));
   }
   std::size_t done = 0;
-  const std::size_t frames = 2 * present.size() + 2;
+  const std::size_t frames = 2 * present.size() + 1;
   const auto draw = [&](const Attributes& taken) {
     const Picture picture = golden_picture(with_cloud(original, mixed(cloud, encoded, matches, taken)), threads);
-    if (progress) progress(++done, frames);
+    if (progress) progress(++done, 2 * frames);
     return picture;
   };
   const Picture first = draw({});
   Attributes so_far{};
-  for (int a = 0; a < kAttributes; ++a) so_far[static_cast<std::size_t>(a)] = true;
+  so_far.fill(true);
   for (const Attribute a : present) so_far[a] = false;
   Picture before = first;
   std::vector<Picture> increments;
@@ -147,8 +147,9 @@ FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud
   out.file = amount_of(difference(before, first));
 
   const stages::Chain chain(with_cloud(original, encoded), config, threads);
-  const Attribution device = attribute(chain, {.quick = true, .threads = threads});
-  if (progress) progress(frames, frames);
+  Progress second_half;
+  if (progress) second_half = [&](std::size_t at, std::size_t total) { progress(total + at, 2 * total); };
+  const Attribution device = attribute(chain, {.quick = true, .threads = threads, .progress = second_half});
   out.device = device.total;
   for (std::size_t k = 0; k < device.steps.size(); ++k) {
     out.parts.push_back(

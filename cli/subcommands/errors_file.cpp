@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/file_errors.hpp"
-#include "base/version.hpp"
-#include "cli/config_json.hpp"
 #include "cli/errors_output.hpp"
 #include "cli/gaussian_flags.hpp"
 #include "cli/output_names.hpp"

@@ -75,9 +75,13 @@ class Reader {
       refuse("a focal length is invalid", "more than 0 pixels", fmt::format("{} and {}", x, y));
     return {x, y};
   }
-  /// `rows` rows of `columns` numbers.
+  /// At least `rows` rows of `columns` numbers.
   std::vector<double> matrix(const Json& object, const char* key, std::size_t rows, std::size_t columns) const;
-  glm::dmat3 rotation(const glm::dmat3& axes, const char* key) const;
+  PlacedCamera placed(const std::vector<double>& numbers, const char* key) const;
+  static std::string name_of(const Json& object, const char* key) {
+    const auto name = object.find(key);
+    return name != object.end() && name->is_string() ? name->get<std::string>() : std::string{};
+  }
   static std::string short_text(const Json& value) {
     const std::string text = json_text(value, -1);
     return text.size() <= 40 ? text : text.substr(0, 37) + "...";
@@ -104,13 +108,13 @@ std::vector<double> Reader::matrix(const Json& object, const char* key, std::siz
   if (!fits)
     refuse(std::string(key) + " is invalid", fmt::format("{} rows of {} numbers", rows, columns),
            found == object.end() ? "nothing" : short_text(*found));
-  for (std::size_t row = 0; row < rows; ++row)
-    for (const Json& value : (*found)[row]) out.push_back(number(value, key));
+  for (const Json& row : *found)
+    for (const Json& value : row) out.push_back(number(value, key));
   return out;
 }
 
-glm::dmat3 Reader::rotation(const glm::dmat3& axes, const char* key) const {
-  const auto out = rotation_from(axes);
+PlacedCamera Reader::placed(const std::vector<double>& numbers, const char* key) const {
+  const auto out = camera_from_matrix(numbers);
   if (!out)
     refuse(std::string(key) + " is not a rotation", "three orthogonal unit columns, not mirrored", "another matrix");
   return *out;
@@ -121,15 +125,19 @@ PlacedCamera Reader::of_trainer(const Json& one) const {
   const auto position = one.find("position");
   if (position == one.end() || !position->is_array() || position->size() != 3)
     refuse("position is invalid", "three numbers", position == one.end() ? "nothing" : short_text(*position));
-  const int width = side(one, "width", 0), height = side(one, "height", 0);
+  const glm::ivec2 usual = size_.value_or(glm::ivec2(0));
+  const int width = side(one, "width", usual.x), height = side(one, "height", usual.y);
   const auto fx = number_of(one, "fx"), fy = number_of(one, "fy");
   if (!fx || !fy) refuse("a focal length is missing", "fx and fy", "nothing");
-  const auto name = one.find("img_name");
-  return {.name = name != one.end() && name->is_string() ? name->get<std::string>() : std::string{},
-          .eye = {number((*position)[0], "position"), number((*position)[1], "position"),
-                  number((*position)[2], "position")},
-          .axes = rotation(glm::dmat3(r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]), "rotation"),
-          .intrinsics = Intrinsics{focal(*fx, *fy), {0.5 * (width - 1), 0.5 * (height - 1)}, width, height}};
+  std::vector<double> numbers;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) numbers.push_back(r[3 * row + column]);
+    numbers.push_back(number((*position)[row], "position"));
+  }
+  PlacedCamera out = placed(numbers, "rotation");
+  out.name = name_of(one, "img_name");
+  out.intrinsics = Intrinsics{focal(*fx, *fy), {0.5 * (width - 1), 0.5 * (height - 1)}, width, height};
+  return out;
 }
 
 void Reader::require_pinhole(const Json& own) const {
@@ -151,7 +159,11 @@ void Reader::require_pinhole(const Json& own) const {
 
 PlacedCamera Reader::of_transforms(const Json& frame) {
   require_pinhole(frame);
-  const auto m = matrix(frame, "transform_matrix", 3, 4);
+  auto numbers = matrix(frame, "transform_matrix", 3, 4);
+  // These files have x right, y up, z back, and the first pixel's centre at (0.5, 0.5).
+  for (std::size_t row = 0; row < 3; ++row)
+    for (const std::size_t column : {1U, 2U}) numbers[4 * row + column] *= -1.0;
+  PlacedCamera out = placed(numbers, "transform_matrix");
   const glm::ivec2 usual = size_.value_or(glm::ivec2(0));
   const int width = side(frame, "w", usual.x), height = side(frame, "h", usual.y);
   const auto fl_x = number_of(frame, "fl_x"), fl_y = number_of(frame, "fl_y");
@@ -166,13 +178,10 @@ PlacedCamera Reader::of_transforms(const Json& frame) {
   const auto cx = number_of(frame, "cx"), cy = number_of(frame, "cy");
   for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"})
     distorted_ = distorted_ || number_of(frame, key).value_or(0.0) != 0.0;
-  const auto path = frame.find("file_path");
-  // These files have x right, y up, z back, and the first pixel's centre at (0.5, 0.5).
-  return {.name = path != frame.end() && path->is_string() ? path->get<std::string>() : std::string{},
-          .eye = {m[3], m[7], m[11]},
-          .axes = rotation(glm::dmat3(m[0], m[4], m[8], -m[1], -m[5], -m[9], -m[2], -m[6], -m[10]), "transform_matrix"),
-          .intrinsics = Intrinsics{
-              focal(x, y), {cx.value_or(0.5 * width) - 0.5, cy.value_or(0.5 * height) - 0.5}, width, height}};
+  out.name = name_of(frame, "file_path");
+  out.intrinsics =
+      Intrinsics{focal(x, y), {cx.value_or(0.5 * width) - 0.5, cy.value_or(0.5 * height) - 0.5}, width, height};
+  return out;
 }
 
 CameraFile Reader::read() {

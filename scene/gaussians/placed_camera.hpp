@@ -38,7 +38,7 @@ struct CameraFile {
 CameraFile load_cameras(const std::filesystem::path& path, const std::optional<glm::ivec2>& size);
 
 /// Index of the camera with this name, or with this file name with or without ending, else of this number, from 0.
-/// UserError (Usage) if there is none, or several with the file name.
+/// Throws UserError (Usage) for unknown cameras and for a file name that several cameras have.
 std::size_t find_camera(const CameraFile& file, const std::string& name);
 
 /// The intrinsics that shows the same at another size: centred, and everything of `intrinsics` is in the picture.

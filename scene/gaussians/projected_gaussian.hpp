@@ -17,6 +17,7 @@ namespace fastsplat::scene {
 inline constexpr double kMostAlpha = 0.99;
 /// Early-termination threshold on transmittance.
 inline constexpr double kFinished = 1e-4;
+
 struct ProjectedGaussian {
   std::uint32_t number = 0;  ///< in the cloud
   double x = 0.0, y = 0.0;   ///< of the centre, pixels

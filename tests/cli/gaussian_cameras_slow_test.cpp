@@ -144,6 +144,7 @@ TEST_F(GaussianCameras, MisuseIsRefusedInOneLine) {
            Misuse{{"--pose", "1,2,3"}, {"--pose", "12 numbers"}},
            Misuse{{"--pose", "2,0,0,0,0,2,0,0,0,0,2,0"}, {"--pose", "rotation"}},
            Misuse{{"--pose", "1,0,0,0,0,1,0,0,0,0,1,0", "--roll", "3"}, {"--pose", "--roll"}},
+           Misuse{{"--cameras", file_, "--up", "z"}, {"--cameras", "--up"}},
            Misuse{{"--view", "1"}, {"--view", "--cameras"}},
            Misuse{{"--cameras", file_, "--view", "photo_9"}, {"--view", "photo_0", "0 to 2"}},
            Misuse{{"--cameras", file_, "--fov", "40"}, {"--cameras", "--fov"}},

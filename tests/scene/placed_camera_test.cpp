@@ -281,6 +281,8 @@ TEST(PlacedCamera, DamagedFilesAreRefusedInOneLine) {
       {list(with(good, "height", 20.5)), "an integer from 1"},
       {list(with(good, "width", 1e12)), "an integer from 1"},
       {frames(with(frame, "transform_matrix", {{1, 2}, {3, 4}})), "3 rows of 4 numbers"},
+      {frames(with(frame, "transform_matrix", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 1, 0}})),
+       "not a rotation"},
       {frames(with(frame, "fl_x", "wide")), "a finite number"},
       {with(with(whole, "fl_x", {}), "fl_y", {}), "fl_x or camera_angle_x"},
       {with(with(with(whole, "fl_x", {}), "fl_y", {}), "camera_angle_x", 3.2), "0 to 3 radians"},
@@ -368,6 +370,11 @@ TEST(PlacedCamera, ABoxKeepsTheGaussiansWithTheirCentresInIt) {
   }
   std::printf("[figure] %zu of %zu Gaussians are in the box\n", at, whole.gaussians.size());
   EXPECT_EQ(at, part.gaussians.size());
+  // Ends are included as the floats that positions are: 0.1 is less than its float.
+  GaussianCloud edge = whole;
+  edge.gaussians[7].position = {0.1F, 0.1F, 0.1F};
+  crop(edge, *real_box_from("0.1..0.1,0.1..0.1,0.1..0.1"));
+  EXPECT_EQ(edge.gaussians.size(), 1U);
   EXPECT_GT(at, 50U);
   EXPECT_THROW(crop(part, *real_box_from("7..8,7..8,7..8")), UserError);
   for (const char* none :

@@ -74,12 +74,15 @@ ExitCode run_still(const RenderArguments& arguments, const GaussianRenderer& ren
   return code;
 }
 
-void check_frames(const RenderArguments& arguments, const std::vector<scene::GaussianDescription>& frames) {
-  check_animation(arguments, static_cast<int>(frames.size()));
-  const bool alike = std::ranges::all_of(frames, [&](const scene::GaussianDescription& one) {
+bool of_one_size(const std::vector<scene::GaussianDescription>& frames) {
+  return std::ranges::all_of(frames, [&](const scene::GaussianDescription& one) {
     return one.width == frames.front().width && one.height == frames.front().height;
   });
-  if (alike || arguments.video.empty()) return;
+}
+
+void check_frames(const RenderArguments& arguments, const std::vector<scene::GaussianDescription>& frames) {
+  check_animation(arguments, static_cast<int>(frames.size()));
+  if (of_one_size(frames) || arguments.video.empty()) return;
   throw_usage({.where = "--video",
                .what = "the cameras have pictures of different sizes",
                .expected = {},
@@ -93,7 +96,8 @@ ExitCode run_frames(const RenderArguments& arguments, const GaussianRenderer& re
   scene::GaussianScene first = build(arguments.gaussians, view);
   if (first.description.placed) first.description.placed->name.clear();  // the summary is of all frames
   output.remark(cli::remarks(*first.cloud));
-  output.line(fmt::format("{}, {}", summary(first), counted(frames.size(), "frame")));
+  output.line(fmt::format("{}, {}{}", summary(first), counted(frames.size(), "frame"),
+                          of_one_size(frames) ? "" : " of different sizes, of which this is the first's"));
   const auto frame = [&](int number) {
     auto description = frames[static_cast<std::size_t>(number)];
     description.up = first.description.up;

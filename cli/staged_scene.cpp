@@ -8,6 +8,7 @@
 #include "cli/volume_json.hpp"
 #include "driver/splats/splat_quantiser.hpp"
 #include "driver/tables/density_tables.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 
 namespace fastsplat::cli {
 
@@ -58,7 +59,10 @@ std::unique_ptr<stages::Chain> StagedScene::chain(const cmodel::Config& config, 
 
 std::unique_ptr<stages::Chain> StagedScene::chain(int threads, const Output& output) const {
   auto made = chain(config_, threads);
-  if (made->gaussians() != nullptr) output.remark(remarks(made->gaussians()->projection()));
+  if (const stages::GaussianSteps* const steps = made->gaussians()) {
+    output.remark(remarks(steps->projection()));
+    output.remark(remarks(driver::GaussianFrame(*gaussians_, steps->gaussians(), config_, threads).report(), config_));
+  }
   return made;
 }
 

@@ -130,6 +130,13 @@ Verdict errors(const Figures& f) {
                                    : fmt::format("{} has the largest share, {:.0f} %", step, 100 * share))};
 }
 
+Verdict errors_file(const Figures& f) {
+  const double file = f.number("file/rms_lsb8"), device = f.number("device/rms_lsb8");
+  return {Status::Measured,
+          fmt::format("rms error {:.3g} LSB of 8 bits by the file, {:.3g} by the device, {:.3g} by both", file, device,
+                      f.number("total/rms_lsb8"))};
+}
+
 Verdict bound(const Figures& f) {
   const Json& levels = f.list("levels");
   const bool holds = f.flag("holds");
@@ -220,10 +227,10 @@ Verdict closure(const Figures& f) {
 
 const std::map<std::string, SentenceOf>& verdicts() {
   static const std::map<std::string, SentenceOf> all{
-      {"closure", closure},      {"compare", compare},    {"coverage", coverage},      {"cycles", cycles},
-      {"errors", errors},        {"errors bound", bound}, {"errors propose", propose}, {"errors ranges", ranges},
-      {"family", family},        {"plan", plan},          {"render", render},          {"stream record", record},
-      {"stream replay", replay}, {"verify", verify}};
+      {"closure", closure},      {"compare", compare},         {"coverage", coverage},  {"cycles", cycles},
+      {"errors", errors},        {"errors file", errors_file}, {"errors bound", bound}, {"errors propose", propose},
+      {"errors ranges", ranges}, {"family", family},           {"plan", plan},          {"render", render},
+      {"stream record", record}, {"stream replay", replay},    {"verify", verify}};
   return all;
 }
 

@@ -114,7 +114,8 @@ FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud
       .parts = {},
       .file = {},
       .device = {},
-      .total = {}};
+      .total = {},
+      .report = {}};
   std::vector<Attribute> present;
   for (int a = 0; a < kAttributes; ++a) {
     const bool missing = a > Constant && a < Rest && a - Constant > degree;
@@ -146,7 +147,9 @@ FileErrors file_errors(const scene::GaussianScene& original, const GaussianCloud
   }
   out.file = amount_of(difference(before, first));
 
-  const stages::Chain chain(with_cloud(original, encoded), config, threads);
+  const scene::GaussianScene other_scene = with_cloud(original, encoded);
+  const stages::Chain chain(other_scene, config, threads);
+  out.report = driver::GaussianFrame(other_scene, chain.gaussians()->gaussians(), config, threads).report();
   Progress second_half;
   if (progress) second_half = [&](std::size_t at, std::size_t total) { progress(total + at, 2 * total); };
   const Attribution device = attribute(chain, {.quick = true, .threads = threads, .progress = second_half});

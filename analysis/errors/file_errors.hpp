@@ -8,6 +8,7 @@
 
 #include "analysis/errors/attribution.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "driver/tiles/gaussian_frame.hpp"
 #include "scene/gaussians/gaussian_scene.hpp"
 
 namespace fastsplat::analysis {
@@ -25,6 +26,7 @@ struct FileErrors {
   std::size_t original = 0, encoded = 0, matched = 0;  ///< Gaussians
   std::vector<FileError> parts;                        ///< attributes, then steps; none is left out
   Amount file, device, total;                          ///< encoded against original; device against encoded; both
+  driver::GaussianReport report;                       ///< what of `encoded` the device does not hold
 };
 
 /// The picture of `original` in golden against that of `encoded` on the device. Both have the camera and the order of

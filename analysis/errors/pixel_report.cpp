@@ -220,7 +220,10 @@ const Quantity& named(const Quantities& all, const std::string& name) {
   return *std::ranges::find(all, name, &Quantity::name);
 }
 
-std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; }
+std::string cell(const std::optional<double>& value) {
+  if (!value) return "-";
+  return *value == std::round(*value) ? fmt::format("{:.0f}", *value) : fmt::format("{:.6g}", *value);
+}
 
 /// Names of quantities, and three lines of values: real, device, word.
 std::string names_of(const Quantities& quantities) {

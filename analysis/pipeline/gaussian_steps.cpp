@@ -2,12 +2,9 @@
 #include "analysis/pipeline/gaussian_steps.hpp"
 
 #include <cmath>
-#include <string>
 
-#include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
-#include "driver/tiles/gaussian_windows.hpp"
 
 namespace fastsplat::stages {
 
@@ -19,14 +16,6 @@ GaussianSteps::GaussianSteps(const scene::GaussianScene& scene, const cmodel::Co
       rim_(scene.description.cutoff * scene.description.cutoff) {
   driver::check_drawable(scene.description, config);
   gaussians_ = scene::project_all(scene, &projection_, threads);
-  for (const scene::ProjectedGaussian& one : gaussians_) {
-    if (!driver::too_far(scene, one, driver::gaussian_reach(config))) continue;
-    throw_usage({.where = "configuration " + config.name,
-                 .what = "Gaussian " + std::to_string(one.number) + " reaches farther than a record",
-                 .expected = std::to_string(driver::gaussian_reach(config)) + " pixels at most",
-                 .got = {},
-                 .fix = "use a smaller --size or --zoom"});
-  }
 }
 
 void GaussianSteps::stage(const scene::ProjectedGaussian& real, const Mixture& mixture, StagedSplat& splat,

@@ -15,8 +15,8 @@ namespace fastsplat::stages {
 
 class GaussianSteps {
  public:
-  /// Projects them. Keeps a reference to `config`. UserError (Usage) if the device cannot draw them, or if one reaches
-  /// farther into the picture than a record can.
+  /// Projects them. Keeps a reference to `config`. UserError (Usage) if the device cannot draw them. What it clips at a
+  /// record's reach is an error of step distance.
   GaussianSteps(const scene::GaussianScene& scene, const cmodel::Config& config, int threads);
 
   const scene::ProjectionReport& projection() const { return projection_; }

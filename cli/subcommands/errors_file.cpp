@@ -55,6 +55,7 @@ ExitCode run(const ErrorsFileArguments& arguments) {
     ProgressBar bar("errors", watching(arguments.common));
     errors = analysis::file_errors(scene, encoded, config, arguments.common.threads, bar.callback());
   }
+  output.remark(remarks(errors.report, config));
   if (10 * errors.matched < 9 * std::min(errors.original, errors.encoded))
     output.warn(fmt::format("only {} found again: shares of attributes are of these alone",
                             counted(errors.matched, "Gaussian")));

@@ -8,6 +8,7 @@
 #include "cli/config_flags.hpp"
 #include "cli/config_json.hpp"
 #include "cli/device_report.hpp"
+#include "cli/errors_output.hpp"
 #include "cli/gaussian_flags.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
@@ -80,8 +81,8 @@ ExitCode record_gaussians(const StreamRecordArguments& arguments, const cmodel::
     ProgressBar bar("recording", watching(arguments.common));
     report = driver::record_stream(frame, arguments.out, bar.callback());
   }
-  output.line(fmt::format("{}\ndriver: {}, {}\n{}\n", summary(scene), counted(report.records, "ellipse record"),
-                          counted(report.tiles, "tile"), arguments.out));
+  output.line(fmt::format("{}driver: {}, {}\n{}\n", errors_heading(summary(scene), config),
+                          counted(report.records, "ellipse record"), counted(report.tiles, "tile"), arguments.out));
   output.remark(remarks(*scene.cloud));
   output.json(Json{{"verb", "stream record"},
                    {"version", program_version()},

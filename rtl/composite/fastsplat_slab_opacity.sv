@@ -29,9 +29,9 @@ module fastsplat_slab_opacity (
 
   `FASTSPLAT_NARROW(narrow_fall, FB + REM, FB, FALL)
   `FASTSPLAT_NARROW(narrow_colour, SB + FB, LB, SLAB_COLOUR)
-  `FASTSPLAT_NARROW(narrow_to_opacity, SB + FB, TB, SLAB_OPACITY)
+  `FASTSPLAT_NARROW(narrow_opacity, SB + FB, TB, SLAB_OPACITY)
   `FASTSPLAT_NARROW(narrow_added_colour, SB, LB, ADDED_COLOUR)
-  `FASTSPLAT_NARROW(narrow_added_to_opacity, SB, TB, ADDED_OPACITY)
+  `FASTSPLAT_NARROW(narrow_added_opacity, SB, TB, ADDED_OPACITY)
 
   // {overflow, word} with the word as wide as the state
   function automatic logic [DB:0] to_state(input logic [LB:0] narrowed);
@@ -40,12 +40,6 @@ module fastsplat_slab_opacity (
   // An opacity as wide as a colour.
   function automatic logic [LB:0] widened(input logic [TB:0] narrowed);
     widened = {narrowed[TB], LB'(narrowed[TB-1:0])};
-  endfunction
-  function automatic logic [LB:0] narrow_opacity(input logic [SB+FB-1:0] value);
-    narrow_opacity = widened(narrow_to_opacity(value));
-  endfunction
-  function automatic logic [LB:0] narrow_added_opacity(input logic [SB-1:0] value);
-    narrow_added_opacity = widened(narrow_added_to_opacity(value));
   endfunction
 
   logic [2*FB-1:0] segment_k2;
@@ -78,9 +72,9 @@ module fastsplat_slab_opacity (
       if (valid_i[3]) begin
         case (mode_i)
           2'd0: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ?
-              narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)) :
+              widened(narrow_opacity((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q))) :
               narrow_colour((SB + FB)'(sum_k3_q) * (SB + FB)'(factor_k3_q)));
-          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ? narrow_added_opacity(sum_k3_q) : narrow_added_colour(sum_k3_q));
+          2'd1: {saturated_o[c], slab_o[c*DB+:DB]} <= to_state((c == 3) ? widened(narrow_added_opacity(sum_k3_q)) : narrow_added_colour(sum_k3_q));
           default: {saturated_o[c], slab_o[c*DB+:DB]} <= {1'b0, DB'(sum_k3_q)};
         endcase
       end

@@ -111,6 +111,9 @@ GltfDocument::GltfDocument(std::string_view bytes, std::filesystem::path path)
       refuse("the header of a .glb file is truncated", "20 bytes", fmt::format("{}", bytes.size()));
     if (word_at(bytes, 4) != 2)
       refuse("unsupported version of glTF", "2", fmt::format("{}", word_at(bytes, 4)), "export it as glTF 2.0");
+    if (word_at(bytes, 8) != bytes.size())
+      refuse("the length in the header of a .glb file is not the file's", fmt::format("{} bytes", word_at(bytes, 8)),
+             fmt::format("{}", bytes.size()), "the file may be truncated: export or copy it again");
     const std::size_t length = word_at(bytes, 12), rest = bytes.size() - 20;
     if (word_at(bytes, 16) != kJson || length > rest)
       refuse("the first chunk of a .glb file is wrong", fmt::format("JSON of at most {} bytes", rest),

@@ -54,10 +54,14 @@ class Gltf {
 };
 
 void Gltf::check_required() {
-  const Json::json_pointer place("/asset/version");
-  const Json version = file_.json().contains(place) ? file_.json()[place] : Json();
-  if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
-    file_.refuse("unsupported asset.version of glTF", "2.0", version.dump().substr(0, 40), "export it as glTF 2.0");
+  for (const char* key : {"version", "minVersion"}) {
+    const auto place = Json::json_pointer("/asset") / key;
+    if (std::string_view(key) == "minVersion" && !file_.json().contains(place)) continue;
+    const Json version = file_.json().contains(place) ? file_.json()[place] : Json();
+    if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
+      file_.refuse(fmt::format("unsupported asset.{} of glTF", key), "2.0", version.dump().substr(0, 40),
+                   "export it as glTF 2.0");
+  }
   const auto required = file_.json().find("extensionsRequired");
   if (required == file_.json().end() || !required->is_array()) return;
   for (const Json& name : *required) {
@@ -84,6 +88,9 @@ std::vector<double> Gltf::list(const Json& node, const char* key, std::size_t si
 glm::dmat4 Gltf::transformation(const Json& node) const {
   glm::dmat4 out(1.0);
   if (const auto matrix = list(node, "matrix", 16); !matrix.empty()) {
+    for (const char* key : {"rotation", "scale", "translation"})
+      if (node.contains(key))
+        file_.refuse("a node has two transformations", "a matrix or TRS", fmt::format("matrix and {}", key));
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 4; ++row) out[column][row] = matrix[static_cast<std::size_t>(4 * column + row)];
     return out;

@@ -19,6 +19,7 @@ class OwnInput : public ::testing::Test {
     expect_success(fastsplat({"render", "--volume", "shells:8", "--size", "8", "-o", picture_, "--json", result_}));
     expect_success(fastsplat({"gaussians", "convert", "shells:8", gaussians_}));
     folder_.write("plan.json", "{}");
+    folder_.write("cameras.json", "[]");
     expect_success(
         fastsplat({"stream", "record", "--volume", "shells:8", "--size", "8", "--config", "tiny", "-o", stream_}));
     const auto shown = fastsplat({"config", "show", "tiny"});
@@ -53,6 +54,9 @@ class OwnInput : public ::testing::Test {
         {gaussians_, {"gaussians", "info", gaussians_, "--json", gaussians_}},
         {gaussians_, {"gaussians", "convert", gaussians_, gaussians_}},
         {gaussians_, {"gaussians", "convert", gaussians_, folder_ / "a.spz", "--json", gaussians_}},
+        {gaussians_, {"errors", "file", gaussians_, "shells:8", "--size", "8", "--json", gaussians_}},
+        {gaussians_, {"errors", "file", "shells:8", gaussians_, "--size", "8", "--json", gaussians_}},
+        {cameras_, {"render", "--gaussians", "shells:8", "--size", "8", "--cameras", cameras_, "--json", cameras_}},
         {volume_, {"render", "--size", "8", "--volume", volume_, "--json", volume_}},
         {config_, with(still, with(model, {"--json", config_}))},
         {tf_, with(still, {"--tf", tf_, "--json", tf_})},
@@ -119,7 +123,8 @@ class OwnInput : public ::testing::Test {
   const std::string volume_ = folder_ / "in.nrrd", header_ = folder_ / "detached.nhdr",
                     data_ = folder_ / "detached.raw.gz", picture_ = folder_ / "in.exr", stream_ = folder_ / "in.fss",
                     config_ = folder_ / "config.toml", tf_ = folder_ / "tf.toml", scene_ = folder_ / "scene.toml",
-                    result_ = folder_ / "result.json", gaussians_ = folder_ / "in.ply", plan_ = folder_ / "plan.json";
+                    result_ = folder_ / "result.json", gaussians_ = folder_ / "in.ply",
+                    cameras_ = folder_ / "cameras.json", plan_ = folder_ / "plan.json";
 };
 
 TEST_F(OwnInput, IsReplacedByNoSubcommand) {

@@ -82,6 +82,35 @@ TEST(GaussianChain, AllDeviceIsTheIntegerModelBitForBit) {
   EXPECT_GT(light, words / 4);
 }
 
+// Near a camera: footprints wider than a record's reach, and centres beyond it.
+TEST(GaussianChain, ClipsAtTheReachOfARecordAsTheDeviceDoes) {
+  scene::GaussianScene scene = scene_of("cloud:60", 1.0, scene::Projection::Orthographic);
+  scene::GaussianDescription description = scene.description;
+  description.width = 1300, description.height = 40, description.camera.zoom = 1000.0;
+  scene = scene::build_gaussian_scene(description, scene.cloud);
+  const cmodel::Config config = usual_config();
+  const driver::GaussianRender device =
+      driver::render_gaussians({scene, scene::project_all(scene), config}, {.unit = driver::Unit::Plain});
+  const Chain chain(scene, config);
+  const Picture picture = chain(Mixture::all_device(), 2), golden = chain(Mixture{}, 2);
+  std::size_t different = 0, beyond = 0;
+  double lost = 0.0;
+  for (std::size_t i = 0; i < device.frame.words.size(); ++i) {
+    const double value = std::ldexp(device.frame.words[i], -device.frame.frac_bits);
+    different += picture.pixels[i / 4][i % 4] != value ? 1 : 0;
+    lost = std::max(lost, std::abs(golden.pixels[i / 4][i % 4] - value));
+  }
+  for (const auto& one : chain.gaussians()->gaussians()) beyond += one.x < -502 || one.x > 1802 ? 1 : 0;
+  std::printf(
+      "[figure] words = %zu, different: %zu (limit 0); Gaussians clipped = %llu, centres beyond = %zu (limit > "
+      "0); error = %.3g (limit > 0.01)\n",
+      device.frame.words.size(), different, static_cast<unsigned long long>(device.report.cut), beyond, lost);
+  EXPECT_EQ(different, 0u);
+  EXPECT_GT(device.report.cut, 0u);
+  EXPECT_GT(beyond, 0u);
+  EXPECT_GT(lost, 0.01);
+}
+
 TEST(GaussianChain, AllRealIsGoldensPicture) {
   double worst = 0.0;
   const cmodel::Config config = usual_config();

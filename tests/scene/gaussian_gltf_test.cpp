@@ -256,7 +256,8 @@ TEST(Gltf, DamageIsNamed) {
       {bytes.substr(0, 16), "header of a .glb"},
       {patched(bytes, 4, word(1)), "version of glTF"},
       {patched(bytes, 12, word(0xFFFFFFF0U)), "first chunk"},
-      {bytes.substr(0, bytes.size() - 4), "shorter than its binary chunk"},
+      {bytes.substr(0, bytes.size() - 4), "the length in the header of a .glb file is not the file's"},
+      {patched(bytes.substr(0, bytes.size() - 4), 8, word(bytes.size() - 4)), "shorter than its binary chunk"},
       {patched(bytes, 20, "["), "invalid JSON"},
       {patched(bytes, 20, "{\"a\":" + std::string(100, '[')), "nested more than"},
       {patched(bytes, 20, "{\"a\":1e999,"), "number overflow"},
@@ -283,6 +284,12 @@ TEST(Gltf, DamageIsNamed) {
       {changed([](Json& json) { json["accessors"][5]["componentType"] = 5122; }),
        "COEF_0 has an invalid componentType"},
       {changed([](Json& json) { json["asset"]["version"] = "1.0"; }), "asset.version"},
+      {changed([](Json& json) { json["asset"]["minVersion"] = "3.0"; }), "asset.minVersion"},
+      {changed([](Json& json) {
+         json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+         json["nodes"][0]["scale"] = {2, 2, 2};
+       }),
+       "two transformations"},
       {changed([](Json& json) { json["asset"]["version"] = 2; }), "asset.version"},
       {changed([](Json& json) { json.erase("asset"); }), "asset.version"},
       {changed([](Json& json) {

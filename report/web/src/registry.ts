@@ -7,6 +7,7 @@ import { compare } from "./panels/compare";
 import { coverage } from "./panels/coverage";
 import { cycles } from "./panels/cycles";
 import { errors } from "./panels/errors";
+import { errors_file } from "./panels/errors_file";
 import { family } from "./panels/family";
 import { pictures } from "./panels/pictures";
 import { plan } from "./panels/plan";
@@ -15,4 +16,4 @@ import { ranges } from "./panels/ranges";
 import { runs } from "./panels/runs";
 import { verify } from "./panels/verify";
 
-export const panels: Panel[] = [pictures, compare, errors, bound, ranges, propose, cycles, family, plan, verify, closure, coverage, runs];
+export const panels: Panel[] = [pictures, compare, errors, errors_file, bound, ranges, propose, cycles, family, plan, verify, closure, coverage, runs];

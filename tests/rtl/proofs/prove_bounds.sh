@@ -16,7 +16,7 @@ happens slab_opacity 6
 slab_broken() { slab "slab_opacity_$1" "$2"; refuted "slab_opacity_$1" 6; }
 slab_broken factor_rises 's/factor_k3_q <= segment_k2\[2\*FB-1:FB\] - FB/factor_k3_q <= segment_k2[2*FB-1:FB] + FB/'
 slab_broken sums_counted_as_cut "s/slab_o\[c\*DB+:DB\]} <= {1'b0, DB'(sum_k3_q)};/slab_o[c*DB+:DB]} <= {1'b1, DB'(sum_k3_q)};/"
-slab_broken opacity_not_scaled 's/(c == 3) ? narrow_added_opacity(sum_k3_q) :/(c == 3) ? {1'"'"'b0, TB'"'"'(sum_k3_q)} :/'
+slab_broken opacity_not_scaled 's/(c == 3) ? widened(narrow_added_opacity(sum_k3_q)) :/(c == 3) ? {1'"'"'b0, LB'"'"'(sum_k3_q)} :/'
 
 # --- compositing: words of 7 bits, for z3 has to reason about products
 package_file="$work/composite_pkg.sv"

@@ -53,13 +53,13 @@ class Frames {
 
 /// Shapley values of the groups, for v(S) = E[(S's error) e] / E[e^2]; v of all groups is 1.
 std::vector<GroupShare> shapley(const std::vector<stages::StepSet>& groups, const Picture& real, const Picture& error,
-                                Frames& frames) {
+                                const Mixture& all_steps, Frames& frames) {
   const std::size_t n = groups.size(), all = (std::size_t{1} << n) - 1;
   std::vector<double> worth(all + 1, 0.0);
   for (std::size_t coalition = 1; coalition < all; ++coalition) {
     Mixture mixture;
     for (std::size_t g = 0; g < n; ++g) {
-      if ((coalition >> g & 1) != 0) mixture = mixture.with(groups[g].steps);
+      if ((coalition >> g & 1) != 0) mixture = mixture.with(groups[g].steps, all_steps);
     }
     worth[coalition] = share_of(difference(frames(mixture), real), error);
   }
@@ -164,7 +164,8 @@ Amount amount_of(const Picture& error) {
 Attribution attribute(const stages::Chain& chain, const AttributionOptions& options) {
   Attribution out;
   out.quick = options.quick;
-  const std::vector<stages::StepSet> sets = chain.sets();
+  const Mixture all = options.floats ? Mixture::all_floats(*options.floats) : Mixture::all_device();
+  const std::vector<stages::StepSet> sets = options.floats ? stages::float_sets(chain.sets()) : chain.sets();
   const auto n = static_cast<int>(sets.size());
   const std::vector<stages::StepSet> groups = stages::group_sets(chain.holds_densities());
   const int coalitions = (1 << groups.size()) - 2;  // without the empty one and the full one
@@ -172,7 +173,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
   // known).
   Frames frames(chain, 2 + (n - 1) + (options.quick ? 0 : 2 * (n - 1)) + (options.shapley ? coalitions : 0), options);
   out.real = frames(Mixture{});
-  out.device = frames(Mixture::all_device());
+  out.device = frames(all);
   const Picture error = difference(out.device, out.real);
   const auto share = [&](const Picture& part) { return share_of(part, error); };
   out.total = amount_of(error);
@@ -189,17 +190,18 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
     step.set = set;
     Picture left_out;
     if (last) left_out = before;
-    so_far = so_far.with(set.steps);
+    so_far = so_far.with(set.steps, all);
     Picture after = last ? out.device : frames(so_far);
     out.increments.push_back(difference(after, before));
     before = std::move(after);
     step.share = share(out.increments.back());
     step.increment = amount_of(out.increments.back());
     if (!options.quick) {
-      const Picture only = k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps)), out.real);
+      const Picture only =
+          k == 0 ? out.increments.back() : difference(frames(Mixture{}.with(set.steps, all)), out.real);
       step.only_share = share(only);
       step.only = amount_of(only);
-      if (!last) left_out = frames(Mixture::all_device().with(set.steps, false));
+      if (!last) left_out = frames(all.with(set.steps, Mixture{}));
       step.without = amount_of(difference(left_out, out.real));
     }
     const std::string_view by = set.by;
@@ -213,7 +215,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
     if (step >= 0) out.steps[static_cast<std::size_t>(step)].pixels_ruled += 1.0 / static_cast<double>(wrong);
   }
   out.stories = stories_of(out, error);
-  if (options.shapley && out.total.rms > 0.0) out.groups = shapley(groups, out.real, error, frames);
+  if (options.shapley && out.total.rms > 0.0) out.groups = shapley(groups, out.real, error, all, frames);
   out.chains = frames.done();
   return out;
 }

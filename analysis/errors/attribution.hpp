@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attributes the device's error to the steps of the pipeline (docs/errors.md, section 2).
+// Attributes the device's error, or that of floats, to the steps of the pipeline (docs/errors.md, section 2).
 #pragma once
 
 #include <array>
@@ -65,6 +65,8 @@ struct Attribution {
 
 struct AttributionOptions {
   bool quick = false;    ///< increments only: a third of the frames
+  /// Of floats with these numbers instead of the device.
+  std::optional<stages::FloatNumbers> floats{};
   bool shapley = false;  ///< of the groups: 30 more frames for five groups, 62 for six
   int threads = 0;       ///< 0: all cores; never changes the result
   Progress progress{};   ///< counts frames

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/pipeline/add_products.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "analysis/pipeline/add_products.cpp"
 #include <hwy/foreach_target.h>
@@ -70,8 +73,35 @@ HWY_AFTER_NAMESPACE();
 namespace fastsplat::stages {
 HWY_EXPORT(add_any);
 
+namespace {
+
+double rounded(double product, const ProductRule& rule) {
+  const double steps = product * rule.scale;
+  switch (rule.kind) {
+    case ProductRule::Kind::Exact:
+      return rule.product(product);
+    case ProductRule::Kind::Down:
+      return std::min(std::floor(steps), rule.greatest) / rule.scale;
+    case ProductRule::Kind::HalfUp:
+      return std::min(std::floor(steps + 0.5), rule.greatest) / rule.scale;
+    case ProductRule::Kind::HalfEven:
+      break;
+  }
+  return std::min(std::nearbyint(steps), rule.greatest) / rule.scale;
+}
+
+void add_floats(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule,
+                golden::Sums* sums) {
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) sums[i][c] = rule.sum(sums[i][c] + rounded(weights[i] * value[c], rule));
+  }
+}
+
+}  // namespace
+
 void add_products(std::span<const double> weights, const golden::Sums& value, const ProductRule& rule,
                   golden::Sums* sums) {
+  if (rule.product.on() || rule.sum.on()) return add_floats(weights, value, rule, sums);
   HWY_DYNAMIC_DISPATCH(add_any)(weights, value, rule, sums);
 }
 }  // namespace fastsplat::stages

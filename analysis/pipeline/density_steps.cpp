@@ -24,8 +24,8 @@ double value_of(std::uint32_t word, int frac_bits) {
   return std::ldexp(static_cast<double>(static_cast<std::int32_t>(word)), -frac_bits);
 }
 
-double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b, const RoundToFloat& narrow) {
+  return narrow(narrow(narrow(a[0] * b[0]) + narrow(a[1] * b[1])) + narrow(a[2] * b[2]));
 }
 
 }  // namespace
@@ -111,12 +111,14 @@ double DensitySteps::Lines::at(double position, const RealNarrowing& fall, std::
   return entries[here] - fall((entries[here] - entries[here + channels]) * rest);
 }
 
-DensitySteps::Visible DensitySteps::transfer(double density, bool device) const {
+DensitySteps::Visible DensitySteps::transfer(double density, const Mixture& mixture) const {
   Visible out;
-  if (!device) {
+  if (!mixture.device(Step::Transfer)) {
+    const RoundToFloat& narrow = mixture.rounding(Step::Transfer);
     const scene::Material material = classify_.evaluate(base_ + range_ * density);
-    for (int c = 0; c < 3; ++c) out.colour[static_cast<std::size_t>(c)] = static_cast<double>(material.colour[c]);
-    out.tau = static_cast<double>(material.extinction) * depth_;
+    for (int c = 0; c < 3; ++c)
+      out.colour[static_cast<std::size_t>(c)] = narrow(static_cast<double>(material.colour[c]));
+    out.tau = narrow(static_cast<double>(material.extinction) * depth_);
     return out;
   }
   const double position = density * static_cast<double>(classify_lines_.segments());
@@ -125,26 +127,30 @@ DensitySteps::Visible DensitySteps::transfer(double density, bool device) const 
   return out;
 }
 
-DensitySteps::Vector DensitySteps::slope(const DensityPixel& pixel, bool device) const {
+DensitySteps::Vector DensitySteps::slope(const DensityPixel& pixel, const Mixture& mixture) const {
+  const bool device = mixture.device(Step::Slope);
+  const RoundToFloat& narrow = mixture.rounding(Step::Slope);
   const Scales& scales = (device ? words_ : real_)[static_cast<std::size_t>(pixel.sheet)];
-  const double right = pixel.across[0] * scales.across, down = pixel.across[1] * scales.across,
-               along = pixel.across[2] * scales.along;
+  const double right = narrow(narrow(pixel.across[0]) * narrow(scales.across)),
+               down = narrow(narrow(pixel.across[1]) * narrow(scales.across)),
+               along = narrow(narrow(pixel.across[2]) * narrow(scales.along));
   // Along the pixel's own ray, not along the view axis.
   if (!device) {
     const glm::dvec2 tilt = geometry_.tilt(pixel.x, pixel.y);
-    return {right, down, along - tilt.x * right - tilt.y * down};
+    return {right, down, narrow(narrow(along - narrow(narrow(tilt.x) * right)) - narrow(narrow(tilt.y) * down))};
   }
   const double tx = tilt_(tilts_[0] + pixel.x * tilts_[1]), ty = tilt_(tilts_[2] + pixel.y * tilts_[3]);
   const double gx = across_(right), gy = across_(down);
   return {gx, gy, along_(along - tx * gx - ty * gy)};
 }
 
-std::optional<DensitySteps::Normal> DensitySteps::normal(const Vector& slope, bool device) const {
-  const double square = dot(slope, slope);
+std::optional<DensitySteps::Normal> DensitySteps::normal(const Vector& slope, const Mixture& mixture) const {
+  const RoundToFloat& narrow = mixture.rounding(Step::Normal);
+  const double square = dot(slope, slope, narrow);
   if (!(square > 0.0)) return std::nullopt;
-  if (!device) {
-    const double length = std::sqrt(square);
-    return Normal{1.0 / length, length};
+  if (!mixture.device(Step::Normal)) {
+    const double length = narrow(std::sqrt(square));
+    return Normal{narrow(1.0 / length), length};
   }
   const int even = std::ilogb(square) & ~1;
   const double m = std::ldexp(std::floor(std::ldexp(square, words::kSlope - even)), -words::kSlope);  // 1..4
@@ -153,44 +159,53 @@ std::optional<DensitySteps::Normal> DensitySteps::normal(const Vector& slope, bo
 }
 
 double DensitySteps::facing(const Vector& slope, const Normal& normal, const Vector& real, const Vector& words,
-                            bool device) const {
-  const double along = std::abs(dot(slope, device ? words : real)) * normal.inverse;
-  return device ? facing_(along) : along;
+                            const Mixture& mixture) const {
+  const bool device = mixture.device(Step::Facing);
+  const RoundToFloat& narrow = mixture.rounding(Step::Facing);
+  Vector to = device ? words : real;
+  for (double& part : to) part = narrow(part);
+  const double along = std::abs(dot(slope, to, narrow)) * normal.inverse;
+  return device ? facing_(along) : narrow(along);
 }
 
-double DensitySteps::blend(double length, int sheet, bool device) const {
+double DensitySteps::blend(double length, int sheet, const Mixture& mixture) const {
   const auto s = static_cast<std::size_t>(sheet);
-  if (device) return share_(length * words_[s].per_floor - 1.0);
+  if (mixture.device(Step::Blend)) return share_(length * words_[s].per_floor - 1.0);
   if (!(scene_.shading.gradient_floor > 0.0)) return 1.0;
-  return std::clamp(length * real_[s].per_floor - 1.0, 0.0, 1.0);
+  const RoundToFloat& narrow = mixture.rounding(Step::Blend);
+  return std::clamp(narrow(narrow(length * narrow(real_[s].per_floor)) - 1.0), 0.0, 1.0);
 }
 
-double DensitySteps::glint(double facing, bool device) const {
-  if (!device) return phong_.specular * std::pow(facing, scene_.shading.shininess);
+double DensitySteps::glint(double facing, const Mixture& mixture) const {
+  const RoundToFloat& narrow = mixture.rounding(Step::Phong);
+  if (!mixture.device(Step::Phong))
+    return narrow(narrow(phong_.specular) * narrow(std::pow(facing, scene_.shading.shininess)));
   return phong_words_.specular * glint_lines_.at(std::ldexp(facing, words::kGlintBits), glint_fall_);
 }
 
 golden::Sums DensitySteps::operator()(const DensityPixel& pixel, const Mixture& mixture) const {
-  const Visible seen = transfer(pixel.density, mixture.device(Step::Transfer));
+  const Visible seen = transfer(pixel.density, mixture);
   if (!(seen.tau > 0.0)) return {};
   double share = 0.0, matt = 0.0, shine = 0.0;
   if (scene_.shading.on) {  // else the device's words of the floor are 0, and so is its share
-    const Vector g = slope(pixel, mixture.device(Step::Slope));
-    const std::optional<Normal> n = normal(g, mixture.device(Step::Normal));
-    if (n) share = blend(n->length, pixel.sheet, mixture.device(Step::Blend));
+    const Vector g = slope(pixel, mixture);
+    const std::optional<Normal> n = normal(g, mixture);
+    if (n) share = blend(n->length, pixel.sheet, mixture);
     if (share > 0.0) {
-      const bool word = mixture.device(Step::Facing), phong = mixture.device(Step::Phong);
-      const double to_light = facing(g, *n, light_, light_words_, word);
-      matt = phong ? matt_(phong_words_.ambient + phong_words_.diffuse * to_light)
-                   : phong_.ambient + phong_.diffuse * to_light;
-      shine = glint(facing(g, *n, half_, half_words_, word), phong);
+      const RoundToFloat& narrow = mixture.rounding(Step::Phong);
+      const double to_light = facing(g, *n, light_, light_words_, mixture);
+      matt = mixture.device(Step::Phong) ? matt_(phong_words_.ambient + phong_words_.diffuse * to_light)
+                                         : narrow(narrow(phong_.ambient) + narrow(narrow(phong_.diffuse) * to_light));
+      shine = glint(facing(g, *n, half_, half_words_, mixture), mixture);
     }
   }
   golden::Sums out{0.0, 0.0, 0.0, seen.tau};
+  const RoundToFloat& narrow = mixture.rounding(Step::Shaded);
   for (std::size_t c = 0; c < 3; ++c) {
-    const double plain = seen.colour[c], mixed = plain + share * (plain * matt + shine - plain);
+    const double plain = seen.colour[c], change = narrow(share * narrow(narrow(narrow(plain * matt) + shine) - plain)),
+                 mixed = narrow(plain + change);
     const double lit = mixture.device(Step::Shaded) ? lit_(mixed) : std::clamp(mixed, 0.0, 1.0);
-    out[c] = mixture.device(Step::Colour) ? product_(lit * seen.tau) : lit * seen.tau;
+    out[c] = mixture.device(Step::Colour) ? product_(lit * seen.tau) : mixture.rounding(Step::Colour)(lit * seen.tau);
   }
   return out;
 }

@@ -80,15 +80,16 @@ class DensitySteps {
   void read_light(std::span<const std::uint32_t> words);
   void read_sheets(std::span<const std::uint32_t> words, const scene::SlabGrid& slabs);
 
-  Visible transfer(double density, bool device) const;
-  Vector slope(const DensityPixel& pixel, bool device) const;
+  Visible transfer(double density, const Mixture& mixture) const;
+  Vector slope(const DensityPixel& pixel, const Mixture& mixture) const;
   /// nullopt if the gradient is 0.
-  std::optional<Normal> normal(const Vector& slope, bool device) const;
-  /// |n . V|, V the light or the half vector: `real` or `words`, by `device`.
-  double facing(const Vector& slope, const Normal& normal, const Vector& real, const Vector& words, bool device) const;
+  std::optional<Normal> normal(const Vector& slope, const Mixture& mixture) const;
+  /// |n . V|, V the light or the half vector: `real` or `words`, by the side of step facing.
+  double facing(const Vector& slope, const Normal& normal, const Vector& real, const Vector& words,
+                const Mixture& mixture) const;
   /// Share of shading.
-  double blend(double length, int sheet, bool device) const;
-  double glint(double facing, bool device) const;
+  double blend(double length, int sheet, const Mixture& mixture) const;
+  double glint(double facing, const Mixture& mixture) const;
 
   const scene::Scene& scene_;
   golden::SheetGeometry geometry_;

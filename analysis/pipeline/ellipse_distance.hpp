@@ -29,21 +29,15 @@ class EllipseDistance {
   void rows(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture, golden::Rows rows, int width,
             Visit visit) {
     if (!mixture.device(Step::Distance)) {
-      const auto clip = [](double at, int low, int high) {
-        return static_cast<int>(std::clamp(at, 1.0 * low, 1.0 * high));
-      };
-      const int left = clip(std::ceil(splat.x - shape.reach_x), 0, width),
-                right = clip(std::floor(splat.x + shape.reach_x) + 1.0, 0, width),
-                top = clip(std::ceil(splat.y - shape.reach_y), rows.first, rows.end),
-                bottom = clip(std::floor(splat.y + shape.reach_y) + 1.0, rows.first, rows.end);
-      for (int y = top; y < bottom; ++y) {
+      const driver::Extent box = pixels_about(splat.x, splat.y, shape.reach_x, shape.reach_y, rows, width);
+      for (int y = box.y0; y < box.y1; ++y) {
         entries_.clear();
         const double dy = y - splat.y;
-        for (int x = left; x < right; ++x) {
+        for (int x = box.x0; x < box.x1; ++x) {
           const double dx = x - splat.x;
           entries_.push_back(std::max(shape.a * dx * dx + shape.b * dx * dy + shape.c * dy * dy, 0.0));
         }
-        visit(y, left, std::span<const double>(entries_));
+        visit(y, box.x0, std::span<const double>(entries_));
       }
       return;
     }

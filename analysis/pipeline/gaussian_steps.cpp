@@ -28,16 +28,17 @@ void GaussianSteps::stage(const scene::ProjectedGaussian& real, const Mixture& m
   shape.word_y = driver::quantise_to<std::int32_t>(real.y, centre_);
   const bool position = mixture.device(Step::Position);
   splat = {};
-  splat.x = position ? shape.word_x / centre_.scale : real.x;
-  splat.y = position ? shape.word_y / centre_.scale : real.y;
+  const RoundToFloat& narrow = centre_rounding(mixture);
+  splat.x = position ? shape.word_x / centre_.scale : narrow(real.x);
+  splat.y = position ? shape.word_y / centre_.scale : narrow(real.y);
   splat.radius = std::sqrt(rim_ * real.shape.xx);
   const scene::ScreenShape footprint{rim_ * real.shape.xx, rim_ * real.shape.xy, rim_ * real.shape.yy};
-  set_ellipse(config_, footprint, driver::ellipse_words(config_, footprint), mixture.device(Step::Radius), shape);
+  set_ellipse(config_, footprint, driver::ellipse_words(config_, footprint), mixture, shape);
   for (std::size_t c = 0; c < 4; ++c) {
     const double value = real.opacity * (c < 3 ? real.colour[static_cast<int>(c)] : 1.0);
     splat.value[c] = mixture.device(Step::Emission)
                          ? static_cast<double>(driver::quantise(value, value_).word) / value_.scale
-                         : value;
+                         : mixture.rounding(Step::Emission)(value);
   }
 }
 

@@ -28,6 +28,12 @@ PixelSteps::PixelSteps(const scene::Scene& scene, const cmodel::Config& config, 
       bright_(scene.volume == nullptr),
       composite_(mixture.device(Step::Composite)),
       pixel_(mixture.device(Step::Pixel)),
+      sheet_float_(mixture.sum_rounding(Step::Sheet)),
+      factor_float_(mixture.rounding(Step::Factor)),
+      slab_float_(mixture.rounding(Step::Slab)),
+      composite_float_(mixture.rounding(Step::Composite)),
+      light_float_(mixture.sum_rounding(Step::Composite)),
+      pixel_float_(mixture.rounding(Step::Pixel)),
       exposure_(xray_ && golden_units ? scene.xray_scale : 1.0),
       freeze_below_(mixture.device(Step::Freeze) ? std::ldexp(config.freeze_below, -config.composite_frac_bits)
                                                  : scene.description.culling.freeze),
@@ -53,7 +59,7 @@ golden::Sums PixelSteps::cut(const golden::Sums& sums) const {
 }
 
 double PixelSteps::factor(double tau) const {
-  if (!factor_) return tau > 0.0 ? -std::expm1(-tau) / tau : 1.0;
+  if (!factor_) return factor_float_(tau > 0.0 ? -std::expm1(-tau) / tau : 1.0);
   // Sums that are not saturated can lie beyond the table, where the factor is its last entry.
   const double at = std::min(tau * segments_per_tau_, last_segment_ + 1.0), i = std::min(std::floor(at), last_segment_);
   const auto segment = static_cast<std::size_t>(i);
@@ -62,19 +68,23 @@ double PixelSteps::factor(double tau) const {
 
 RealSlab PixelSteps::slab(const golden::Sums& sums) const {
   RealSlab out;
-  if (additive_ || (!factor_ && !slab_)) {
+  if (additive_ || (!factor_ && !slab_ && !factor_float_.on() && !slab_float_.on())) {
     const golden::Layer layer =
         golden::make_layer(sums, additive_ ? scene::SlabOpacity::Additive : scene::SlabOpacity::Exponential);
     out = {{layer.red, layer.green, layer.blue}, layer.alpha};
     if (bright_) out = {{sums[0], sums[1], sums[2]}, sums[3]};
-    if (!slab_) return out;
+    if (!slab_) {
+      for (double& value : out.colour) value = slab_float_(value);
+      out.opacity = slab_float_(out.opacity);
+      return out;
+    }
     for (std::size_t c = 0; c < 3; ++c) out.colour[c] = added_word_(sums[c]);
     out.opacity = added_opacity_(sums[3]);
     return out;
   }
   const double f = factor(sums[3]);
-  for (std::size_t c = 0; c < 3; ++c) out.colour[c] = slab_ ? slab_word_(sums[c] * f) : sums[c] * f;
-  out.opacity = slab_ ? slab_opacity_(sums[3] * f) : sums[3] * f;
+  for (std::size_t c = 0; c < 3; ++c) out.colour[c] = slab_ ? slab_word_(sums[c] * f) : slab_float_(sums[c] * f);
+  out.opacity = slab_ ? slab_opacity_(sums[3] * f) : slab_float_(sums[3] * f);
   return out;
 }
 
@@ -82,7 +92,8 @@ bool PixelSteps::take(const golden::Sums& sheet, golden::Sums& pixel) const {
   if (sheet == golden::Sums{}) return false;
   const golden::Sums sums = cut(sheet);
   if (xray_) {
-    for (std::size_t c = 0; c < 4; ++c) pixel[c] = sheet_ ? sum_.cut(pixel[c] + sums[c]) : pixel[c] + sums[c];
+    for (std::size_t c = 0; c < 4; ++c)
+      pixel[c] = sheet_ ? sum_.cut(pixel[c] + sums[c]) : sheet_float_(pixel[c] + sums[c]);
     return false;
   }
   if (frozen(pixel[3])) return true;
@@ -92,8 +103,9 @@ bool PixelSteps::take(const golden::Sums& sheet, golden::Sums& pixel) const {
     for (std::size_t c = 0; c < 3; ++c) pixel[c] = over_.cut(pixel[c] + light_(transmittance * over.colour[c]));
     pixel[3] = transmittance - absorbed_(transmittance * over.opacity);
   } else {
-    for (std::size_t c = 0; c < 3; ++c) pixel[c] += transmittance * over.colour[c];
-    pixel[3] = transmittance * (1.0 - over.opacity);
+    for (std::size_t c = 0; c < 3; ++c)
+      pixel[c] = light_float_(pixel[c] + composite_float_(transmittance * over.colour[c]));
+    pixel[3] = composite_float_(transmittance * composite_float_(1.0 - over.opacity));
   }
   return frozen(pixel[3]) || pixel[3] < kSpent;
 }
@@ -102,7 +114,7 @@ golden::Sums PixelSteps::out(const golden::Sums& pixel) const {
   golden::Sums out = pixel;
   if (!xray_) out[3] = 1.0 - pixel[3];
   for (double& value : out) {
-    value *= exposure_;
+    value = pixel_float_(value * exposure_);
     if (pixel_) value = xray_ ? pixel_sum_(value) : pixel_out_(value);
   }
   return out;

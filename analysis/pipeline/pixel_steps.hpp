@@ -44,6 +44,7 @@ class PixelSteps {
   bool sheet_, factor_, slab_;
   bool bright_;  ///< real colours of additive slabs may exceed 1: Gaussians
   bool composite_, pixel_;
+  RoundToFloat sheet_float_, factor_float_, slab_float_, composite_float_, light_float_, pixel_float_;
   double exposure_, freeze_below_;
   RealNarrowing sum_, fall_, slab_word_, slab_opacity_, added_word_, added_opacity_, light_, absorbed_, over_,
       pixel_out_, pixel_sum_;

@@ -76,8 +76,10 @@ PixelTrace PixelChain::operator()(const Mixture& mixture) const {
 
   WeightSteps weights(scene.kernel, config);
   const PixelSteps steps(scene, config, mixture, false);
-  const ProductRule rule = product_rule(config, mixture);
+  ProductRule rule = product_rule(config, mixture);
   const bool samples = driver::every_sample(scene.description);
+  const RoundToFloat sum = samples ? RoundToFloat{} : rule.sum;  // a sample has no sheet
+  rule.sum = {};
   PixelTrace out;
   std::map<int, SheetTrace> sheets;  // by number; with every sample composited, by the sample's
   std::vector<golden::Sums> shares;
@@ -97,7 +99,7 @@ PixelTrace PixelChain::operator()(const Mixture& mixture) const {
       sheet.sheet = splat.first + static_cast<int>(s);
       ShareTrace share{number, shares[s], {}};
       add_products(std::span(&here->weight, 1), shares[s], rule, &share.product);
-      for (std::size_t c = 0; c < 4; ++c) sheet.sums[c] += share.product[c];
+      for (std::size_t c = 0; c < 4; ++c) sheet.sums[c] = sum(sheet.sums[c] + share.product[c]);
       sheet.shares.push_back(share);
     }
   }

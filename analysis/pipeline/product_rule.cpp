@@ -8,7 +8,8 @@
 namespace fastsplat::stages {
 
 ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
-  if (!mixture.device(Step::Product)) return {};
+  const RoundToFloat& sum = mixture.sum_rounding(Step::Sheet);
+  if (!mixture.device(Step::Product)) return {.product = mixture.rounding(Step::Product), .sum = sum};
   const cmodel::Narrowing site = cmodel::narrowing(config, cmodel::Site::Product);
   const auto kind = [&] {
     switch (site.rounding()) {
@@ -21,7 +22,10 @@ ProductRule product_rule(const cmodel::Config& config, const Mixture& mixture) {
     }
     return ProductRule::Kind::HalfEven;
   };
-  return {kind(), std::ldexp(1.0, site.to().frac_bits), static_cast<double>(site.to().max)};
+  return {.kind = kind(),
+          .scale = std::ldexp(1.0, site.to().frac_bits),
+          .greatest = static_cast<double>(site.to().max),
+          .sum = sum};
 }
 
 }  // namespace fastsplat::stages

@@ -27,13 +27,16 @@ cmodel::Config without_end(cmodel::Config config) {
 }  // namespace
 
 void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footprint, const cmodel::EllipseShape& words,
-                 bool device, StagedShape& shape) {
+                 const Mixture& mixture, StagedShape& shape) {
   shape.words = words;
-  if (!device) {
+  if (!mixture.device(Step::Radius)) {
     const double entries = config.radial_entries, determinant = footprint.determinant();
-    shape.a = entries * footprint.yy / determinant;
-    shape.b = -2.0 * entries * footprint.xy / determinant;
-    shape.c = entries * footprint.xx / determinant;
+    const RoundToFloat& narrow = mixture.rounding(Step::Radius);
+    shape.unit = {narrow(footprint.yy / determinant), narrow(-2.0 * footprint.xy / determinant),
+                  narrow(footprint.xx / determinant)};
+    shape.a = entries * shape.unit[0];
+    shape.b = entries * shape.unit[1];
+    shape.c = entries * shape.unit[2];
     shape.reach_x = std::sqrt(footprint.xx);
     shape.reach_y = std::sqrt(footprint.yy);
     return;
@@ -42,6 +45,7 @@ void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footpri
   shape.a = std::ldexp(words.a, steps);
   shape.b = std::ldexp(words.b, steps);
   shape.c = std::ldexp(words.c, steps);
+  shape.unit = {shape.a / config.radial_entries, shape.b / config.radial_entries, shape.c / config.radial_entries};
   const driver::EllipseReach reach = driver::reach(config, words);
   shape.reach_x = reach.x;
   shape.reach_y = reach.y;
@@ -145,13 +149,17 @@ int SplatSteps::first_sheet(const scene::RealSplat& splat, double z, const Mixtu
   if (mixture.device(Step::Depth))
     return slices_.first(static_cast<std::int32_t>(z * depth_.scale), slices_.growth(growth.shrink));
   const double slab = std::floor((z - scene_.kernel.radius() * growth.real - plan_.slabs.first) / plan_.slabs.width);
-  return static_cast<int>(std::clamp(slab, 0.0, plan_.slabs.count - 1.0));
+  // As floats, a boundary may come to lie behind the kernel's beginning.
+  const double more = mixture.floats(Step::Depth) ? 1.0 : 0.0;
+  return static_cast<int>(std::clamp(slab - more, 0.0, plan_.slabs.count - 1.0));
 }
 
 void SplatSteps::circle(const scene::RealSplat& real, const Mixture& mixture, double unit_value,
                         StagedSplat& splat) const {
   const bool position = mixture.device(Step::Position), snap = mixture.device(Step::Snap);
+  const RoundToFloat& narrow = centre_rounding(mixture);
   const auto centre = [&](double at) {
+    at = narrow(at);
     if (position) at = static_cast<double>(driver::quantise(at, position_).word) / position_.scale;
     return snap ? snap_(at) : at;
   };
@@ -183,13 +191,14 @@ StagedShape SplatSteps::shape(const scene::Splat& voxel, const scene::RealSplat&
   out.word_x = word(real.at.x);
   out.word_y = word(real.at.y);
   const bool position = mixture.device(Step::Position);
-  splat.x = position ? out.word_x / centre_.scale : real.at.x;
-  splat.y = position ? out.word_y / centre_.scale : real.at.y;
+  const RoundToFloat& narrow = centre_rounding(mixture);
+  splat.x = position ? out.word_x / centre_.scale : narrow(real.at.x);
+  splat.y = position ? out.word_y / centre_.scale : narrow(real.at.y);
 
   const double square = kernel_radius * kernel_radius;
   const scene::ScreenShape footprint{square * s.xx, square * s.xy, square * s.yy},
       drawn = driver::drawn_footprint(s, kernel_radius);
-  set_ellipse(config_, footprint, driver::ellipse_words(config_, drawn), device, out);
+  set_ellipse(config_, footprint, driver::ellipse_words(config_, drawn), mixture, out);
   if (device && drawn.xx != footprint.xx)  // too thin: fainter by the same factor
     splat.value = golden::scaled(splat.value, std::sqrt(square * square * s.determinant() / drawn.determinant()));
   return out;
@@ -216,12 +225,13 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
     if (shaped()) out.shapes[i] = shape(list.splats[i], real, mixture, unit_value, splat);
     const Growth growth = shaped() ? out.shapes[i].growth : Growth{};
     driver::RoundingCarry::Line* const line = carry ? &carry->next(list.lines[i], list.splats[i].sheet) : nullptr;
+    for (double& value : splat.value) value = mixture.rounding(Step::Emission)(value);
     for (std::size_t c = 0; emission && c < 4; ++c) {
       const double value = splat.value[c];
       const driver::Quantised word = carry ? (*carry)(value, *line, c) : driver::quantise(value, whole_);
       splat.value[c] = static_cast<double>(word.word) * whole_ulp_;
     }
-    splat.z = !depth ? real.depth
+    splat.z = !depth ? mixture.rounding(Step::Depth)(real.depth)
               : plan_.use == scene::SheetUse::Sliced
                   ? slices_.quantise_depth(real.depth - plan_.slabs.first) * depth_ulp_
                   : 0.0;
@@ -242,9 +252,10 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
 }
 
 double SplatSteps::behind(const StagedSplat& splat, int boundary, const Mixture& mixture) const {
-  return (mixture.device(Step::Depth) ? boundary_[static_cast<std::size_t>(boundary)]
-                                      : plan_.slabs.first + boundary * plan_.slabs.width) -
-         splat.z;
+  const RoundToFloat& narrow = mixture.rounding(Step::Depth);
+  return narrow((mixture.device(Step::Depth) ? boundary_[static_cast<std::size_t>(boundary)]
+                                             : narrow(plan_.slabs.first + boundary * plan_.slabs.width)) -
+                splat.z);
 }
 
 double SplatSteps::phi(const StagedSplat& splat, int boundary, const Mixture& mixture, const Growth& growth) const {
@@ -256,15 +267,17 @@ double SplatSteps::phi(const StagedSplat& splat, int boundary, const Mixture& mi
     const double steps = behind(splat, boundary, mixture) * depth_.scale;
     const double at = std::floor(steps * growth.shrink / shrink_.scale) + middle;
     const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, 2.0 * middle));
-    return word ? phi_table_[i] : phi_real_[i];
+    return word ? phi_table_[i] : mixture.rounding(Step::Phi)(phi_real_[i]);
   }
-  const double share = scene_.kernel.cumulative(behind(splat, boundary, mixture) / growth.real);
+  const double share =
+      mixture.rounding(Step::Phi)(scene_.kernel.cumulative(behind(splat, boundary, mixture) / growth.real));
   return word ? static_cast<double>(driver::quantise(share, phi_word_).word) / phi_word_.scale : share;
 }
 
 void SplatSteps::shares(const StagedSplat& splat, const Mixture& mixture, std::vector<golden::Sums>& out,
                         const Growth& growth) const {
   const bool words = mixture.device(Step::Share);
+  const RoundToFloat& narrow = mixture.rounding(Step::Share);
   const auto cut = [&](golden::Sums value) {
     for (double& v : value) v = std::min(v, largest_share_);
     return value;
@@ -279,7 +292,9 @@ void SplatSteps::shares(const StagedSplat& splat, const Mixture& mixture, std::v
   for (int slab = splat.first; slab < plan_.slabs.count && before < 1.0; ++slab) {
     const double behind = phi(splat, slab + 1, mixture, growth);
     if (!words) {
-      out.push_back(golden::scaled(splat.value, behind - before));
+      golden::Sums share = golden::scaled(splat.value, narrow(behind - before));
+      for (double& value : share) value = narrow(value);
+      out.push_back(share);
     } else {
       golden::Sums share;
       for (std::size_t c = 0; c < 4; ++c) {

@@ -2,6 +2,9 @@
 // The steps of a splat before its pixels: position, snap, radius, emission, depth, phi, share.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,6 +16,7 @@
 #include "driver/splats/splat_quantiser.hpp"
 #include "driver/tables/radius_sets.hpp"
 #include "driver/tiles/tile_bins.hpp"
+#include "golden/splat/footprint.hpp"
 #include "golden/splat/projected_splat.hpp"
 #include "scene/scene.hpp"
 #include "scene/sheet_plan.hpp"
@@ -41,6 +45,7 @@ struct StagedShape {
   bool own = false;                     ///< an ellipse; else a circle of a radius set, perhaps grown in depth
   scene::ScreenShape screen;            ///< golden's shape
   double a = 0.0, b = 0.0, c = 0.0;     ///< q = a dx^2 + b dx dy + c dy^2, radial table entries, pixels
+  std::array<double, 3> unit{};         ///< the same of u = q / N, 1 at the edge
   double reach_x = 0.0, reach_y = 0.0;  ///< half sides of the box where q < N, pixels
   cmodel::EllipseShape words;           ///< the device's words, on either side of step radius
   std::int32_t word_x = 0, word_y = 0;  ///< likewise the centre, pf fraction bits
@@ -49,9 +54,15 @@ struct StagedShape {
   Growth growth;
 };
 
-/// The coefficients and the box of a footprint's ellipse: of its words where `device`.
+/// The coefficients and the box of a footprint's ellipse, as step radius makes them.
 void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footprint, const cmodel::EllipseShape& words,
-                 bool device, StagedShape& shape);
+                 const Mixture& mixture, StagedShape& shape);
+
+/// Of centres in the picture. Centres in a tile are rounded where the tile is known, in step distance.
+inline const RoundToFloat& centre_rounding(const Mixture& mixture) {
+  static const RoundToFloat exact;
+  return mixture.tile_centres() ? exact : mixture.rounding(Step::Position);
+}
 
 struct Staged {
   Uninitialised<StagedSplat> splats;
@@ -61,6 +72,16 @@ struct Staged {
 
 /// The voxel whose splat it is.
 glm::ivec3 voxel_of(const volume::Volume& volume, const scene::Splat& splat);
+
+/// The pixels within a reach about a place, in `rows` of an image of `width` columns.
+inline driver::Extent pixels_about(double x, double y, double reach_x, double reach_y, golden::Rows rows, int width) {
+  const auto clip = [](double at, int low, int high) {
+    return static_cast<std::int32_t>(std::clamp(at, static_cast<double>(low), static_cast<double>(high)));
+  };
+  const std::int32_t bottom = clip(std::floor(y + reach_y) + 1.0, rows.first, rows.end);
+  return {clip(std::ceil(x - reach_x), 0, width), clip(std::floor(x + reach_x) + 1.0, 0, width),
+          clip(std::ceil(y - reach_y), rows.first, rows.end), bottom, bottom};
+}
 
 /// The splats of a scene in golden's order within a nearest sheet: traversal order, densities in memory order. Each has
 /// the line of voxels on which it lies (scene::Traversal).

@@ -46,10 +46,12 @@ const char* to_string(Group group) {
 
 std::string Mixture::text() const {
   if (device_.all()) return "all";
-  if (device_.none()) return "none";
+  if (device_.none() && floats_.none()) return "none";
   std::string text;
   for (const Step step : all_steps()) {
-    if (device(step)) text += (text.empty() ? "" : ", ") + std::string(facts(step).name);
+    if (!device(step) && !floats(step)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(facts(step).name);
+    if (floats(step)) text += " " + std::string(numbers_.operands.name);
   }
   return text;
 }
@@ -82,6 +84,18 @@ std::vector<StepSet> gaussian_sets(const cmodel::Config& config) {
     return step == Step::Depth || step == Step::Phi || step == Step::Share || step == Step::Sheet ||
            step == Step::Factor;
   });
+  return sets;
+}
+
+std::vector<StepSet> float_sets(std::vector<StepSet> sets) {
+  for (StepSet& set : sets) {
+    std::erase_if(set.steps,
+                  [](Step step) { return step == Step::Snap || step == Step::Index || step == Step::Freeze; });
+    set.by = "float";
+    set.name.clear();
+    for (const Step step : set.steps) set.name += (set.name.empty() ? "" : "+") + std::string(facts(step).name);
+  }
+  std::erase_if(sets, [](const StepSet& set) { return set.steps.empty(); });
   return sets;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps from a real splat to an output word. Each has two sides: `device`, as docs/numerics.md rounds it, and
-// `real`, as golden computes it. A mixture (hybrid pipeline) selects the side of each step (docs/errors.md).
+// The steps from a real splat to an output word. Each has three sides: `device`, as docs/numerics.md rounds it, `real`,
+// as golden computes it, and floats, as a floating-point unit would compute it (docs/floats.md). A mixture (hybrid
+// pipeline) selects the side of each step (docs/errors.md).
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/pipeline/float_format.hpp"
 #include "cmodel/numbers/config.hpp"
 
 namespace fastsplat::stages {
@@ -68,10 +70,17 @@ inline constexpr std::array<Step, kStepCount> all_steps() {
   return steps;
 }
 
-/// A hybrid pipeline: the steps that are the device's; all others are real.
+/// The numbers of the steps that are floats.
+struct FloatNumbers {
+  FloatFormat operands{}, sums{};  ///< sums: of sheets, and of a pixel's colours
+  bool subnormals = true;
+  bool tile_centres = false;  ///< centres relative to the tile of a pixel, not to the picture
+};
+
+/// A hybrid pipeline: a side for each step.
 class Mixture {
  public:
-  constexpr Mixture() = default;
+  Mixture() = default;
   Mixture(std::initializer_list<Step> device) {
     for (const Step step : device) set(step);
   }
@@ -80,25 +89,55 @@ class Mixture {
     all.device_.set();
     return all;
   }
+  static Mixture all_floats(const FloatNumbers& numbers) {
+    Mixture all;
+    all.floats_.set();
+    all.use(numbers);
+    return all;
+  }
   bool device(Step step) const { return device_[static_cast<std::size_t>(step)]; }
+  bool floats(Step step) const { return floats_[static_cast<std::size_t>(step)]; }
+  bool any_floats() const { return floats_.any(); }
   void set(Step step, bool device = true) { device_.set(static_cast<std::size_t>(step), device); }
+  /// With these steps on the device, or real.
   Mixture with(std::span<const Step> steps, bool device = true) const {
+    return with(steps, device ? all_device() : Mixture{});
+  }
+  /// With the sides that these steps have in `as`.
+  Mixture with(std::span<const Step> steps, const Mixture& as) const {
     Mixture out = *this;
-    for (const Step step : steps) out.set(step, device);
+    for (const Step step : steps) {
+      const auto i = static_cast<std::size_t>(step);
+      out.device_.set(i, as.device_[i]);
+      out.floats_.set(i, as.floats_[i]);
+    }
+    if (as.any_floats()) out.use(as.numbers_);
     return out;
   }
   /// Whether all steps first..last are real.
   bool real(Step first, Step last) const {
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
-      if (device_[i]) return false;
+      if (device_[i] || floats_[i]) return false;
     }
     return true;
   }
-  bool operator==(const Mixture&) const = default;
-  std::string text() const;  ///< "position, snap"; "none"; "all"
+  /// Rounds a step's operations, if it is floats; sums have their own format.
+  const RoundToFloat& rounding(Step step) const { return floats(step) ? operand_ : exact_; }
+  const RoundToFloat& sum_rounding(Step step) const { return floats(step) ? sum_ : exact_; }
+  bool tile_centres() const { return numbers_.tile_centres; }
+  bool operator==(const Mixture& other) const { return device_ == other.device_ && floats_ == other.floats_; }
+  std::string text() const;  ///< "position, snap"; "none"; "all"; steps that are floats with the format: "weight fp16"
 
  private:
-  std::bitset<kStepCount> device_;
+  void use(const FloatNumbers& numbers) {
+    numbers_ = numbers;
+    operand_ = RoundToFloat(numbers.operands, numbers.subnormals);
+    sum_ = RoundToFloat(numbers.sums, numbers.subnormals);
+  }
+
+  std::bitset<kStepCount> device_, floats_;  ///< never both
+  FloatNumbers numbers_;
+  RoundToFloat operand_, sum_, exact_;
 };
 
 /// Steps whose errors are reported as one.
@@ -114,6 +153,9 @@ struct StepSet {
 std::vector<StepSet> step_sets(const cmodel::Config& config, bool carried, bool densities);
 /// Those of 3-D Gaussians, which have neither sheets nor slabs of depth.
 std::vector<StepSet> gaussian_sets(const cmodel::Config& config);
+/// Those of `sets` whose results differ if their arithmetic is floats: not the grid of positions, the table's entries
+/// and the comparison that terminates a pixel.
+std::vector<StepSet> float_sets(std::vector<StepSet> sets);
 std::vector<StepSet> group_sets(bool densities);
 
 }  // namespace fastsplat::stages

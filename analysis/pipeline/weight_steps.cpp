@@ -61,19 +61,21 @@ double WeightSteps::interpolated(double entries, const Mixture& mixture) const {
   const double fall = std::ldexp((words_[t] - words_[t + 1]) * steps, config_.radial_frac_bits);
   const double word =
       words_[t] - std::ldexp(static_cast<double>(radial_fall_(std::llround(fall)).word), -config_.radial_frac_bits);
-  if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? word : line;
+  const RoundToFloat& narrow = mixture.rounding(Step::Weight);
+  if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? word : narrow(line);
   const double real = std::exp(-fall_ * (entries / entries_));
-  return mixture.device(Step::Weight) ? std::max(0.0, real + (word - line)) : real;
+  return mixture.device(Step::Weight) ? std::max(0.0, real + (word - line)) : narrow(real);
 }
 
 double WeightSteps::weight(double entries, const Mixture& mixture) const {
   if (config_.interpolates()) return interpolated(entries, mixture);
   const auto t = static_cast<std::size_t>(entries);
-  if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : real_[t];
+  const RoundToFloat& narrow = mixture.rounding(Step::Weight);
+  if (mixture.device(Step::Index)) return mixture.device(Step::Weight) ? words_[t] : narrow(real_[t]);
   // Adds the word's error to the real weight.
   const double part = entries / entries_, u = config_.index() == IndexKind::Linear ? part * part : part;
   const double real = std::exp(-fall_ * u);
-  return mixture.device(Step::Weight) ? std::max(0.0, real + (words_[t] - real_[t])) : real;
+  return mixture.device(Step::Weight) ? std::max(0.0, real + (words_[t] - real_[t])) : narrow(real);
 }
 
 double WeightSteps::computed(double dx, double dy, const Rim& rim, bool device) const {
@@ -121,7 +123,7 @@ double WeightSteps::other_weight(double dx, double dy, const Rim& rim, const Mix
       break;
   }
   const double u = (dx * dx + dy * dy) / (rim.radius * rim.radius);
-  return u < 1.0 ? std::exp(-fall_ * u) : 0.0;
+  return u < 1.0 ? mixture.rounding(Step::Weight)(std::exp(-fall_ * u)) : 0.0;
 }
 
 void WeightSteps::rasterise_golden(const StagedSplat& splat, const StagedShape* shape, golden::Rows rows, int width) {
@@ -154,6 +156,58 @@ void WeightSteps::rasterise_ellipse(const StagedSplat& splat, const StagedShape&
     add_row(
         y, x, static_cast<int>(entries.size()), [&](int i) { return entries[static_cast<std::size_t>(i)]; }, mixture);
   });
+}
+
+double WeightSteps::float_weight(double u, const Mixture& mixture) const {
+  if (!mixture.device(Step::Index) && !mixture.device(Step::Weight))
+    return mixture.rounding(Step::Weight)(std::exp(-fall_ * u));
+  return weight(entries_ * (config_.index() == IndexKind::Linear ? std::sqrt(u) : u), mixture);
+}
+
+template <class Square>
+void WeightSteps::add_float_row(int y, int x, int x_end, const Mixture& mixture, Square square) {
+  squares_.clear();
+  for (int i = x; i < x_end; ++i) squares_.push_back(square(i - x));
+  const auto count = static_cast<int>(squares_.size());
+  const auto inside = [&](int i) { return squares_[static_cast<std::size_t>(i)] < 1.0; };  // not if it is NaN
+  int begin = 0, end = count;
+  while (begin < end && !inside(begin)) ++begin;
+  while (begin < end && !inside(end - 1)) --end;
+  if (begin == end) return;
+  if (followed_x_ && *followed_x_ >= x + begin && *followed_x_ < x + end)
+    followed_entries_ = entries_ * squares_[static_cast<std::size_t>(*followed_x_ - x)];
+  spans_.push_back({y, x + begin, end - begin, own_.size()});
+  for (int i = begin; i < end; ++i)
+    own_.push_back(inside(i) ? float_weight(squares_[static_cast<std::size_t>(i)], mixture) : 0.0);
+}
+
+void WeightSteps::rasterise_floats(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box) {
+  const RoundToFloat& narrow = mixture.rounding(Step::Distance);
+  const double per_square = mixture.rounding(Step::Radius)(1.0 / (splat.radius * splat.radius));
+  float_offsets(splat.x, box.x0, box.x1, config_.tile_width, mixture, offsets_[0]);
+  float_offsets(splat.y, box.y0, box.y1, config_.tile_height, mixture, offsets_[1]);
+  for (int y = box.y0; y < box.y1; ++y) {
+    const double down = offsets_[1][static_cast<std::size_t>(y - box.y0)].squared;
+    add_float_row(y, box.x0, box.x1, mixture, [&](int i) {
+      return narrow(narrow(offsets_[0][static_cast<std::size_t>(i)].squared + down) * per_square);
+    });
+  }
+}
+
+void WeightSteps::rasterise_floats(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture,
+                                   const driver::Extent& box) {
+  const RoundToFloat& narrow = mixture.rounding(Step::Distance);
+  float_offsets(splat.x, box.x0, box.x1, config_.tile_width, mixture, offsets_[0]);
+  float_offsets(splat.y, box.y0, box.y1, config_.tile_height, mixture, offsets_[1]);
+  for (int y = box.y0; y < box.y1; ++y) {
+    const FloatOffset& down = offsets_[1][static_cast<std::size_t>(y - box.y0)];
+    const double of_row = narrow(shape.unit[2] * down.squared);
+    add_float_row(y, box.x0, box.x1, mixture, [&](int i) {
+      const FloatOffset& across = offsets_[0][static_cast<std::size_t>(i)];
+      const double mixed = narrow(shape.unit[1] * narrow(across.distance * down.distance));
+      return std::max(narrow(narrow(narrow(shape.unit[0] * across.squared) + mixed) + of_row), 0.0);
+    });
+  }
 }
 
 template <class Entries>
@@ -194,7 +248,10 @@ void WeightSteps::rasterise(const StagedSplat& splat, const StagedShape* shape, 
   spans_.clear();
   own_.clear();
   followed_entries_.reset();
-  if (shape != nullptr && shape->own) {
+  if (shape != nullptr && shape->own && float_distances(mixture)) {
+    rasterise_floats(splat, *shape, mixture,
+                     pixels_about(splat.x, splat.y, shape->reach_x, shape->reach_y, rows, width));
+  } else if (shape != nullptr && shape->own) {
     rasterise_ellipse(splat, *shape, mixture, rows, width);
   } else {
     rasterise_circle(splat, mixture, rows, width);
@@ -211,16 +268,12 @@ std::optional<WeightSteps::Followed> WeightSteps::followed() const {
 }
 
 void WeightSteps::rasterise_circle(const StagedSplat& splat, const Mixture& mixture, golden::Rows rows, int width) {
-  const auto clip = [](double at, int low, int high) {
-    return static_cast<int>(std::clamp(at, static_cast<double>(low), static_cast<double>(high)));
-  };
   const double reach = splat.radius + more_reach(config_);
-  const int left = clip(std::ceil(splat.x - reach), 0, width),
-            right = clip(std::floor(splat.x + reach) + 1.0, 0, width),
-            top = clip(std::ceil(splat.y - reach), rows.first, rows.end),
-            bottom = clip(std::floor(splat.y + reach) + 1.0, rows.first, rows.end);
-  const driver::Extent box{left, right, top, bottom, bottom};
-  if (config_.index() == IndexKind::Rlut) {
+  const driver::Extent box = pixels_about(splat.x, splat.y, reach, reach, rows, width);
+  const bool of_offsets = config_.index() == IndexKind::Blit2d || config_.index() == IndexKind::Separable;
+  if (float_distances(mixture) && !(of_offsets && mixture.device(Step::Weight))) {
+    rasterise_floats(splat, mixture, box);
+  } else if (config_.index() == IndexKind::Rlut) {
     rasterise_rlut(splat, mixture, box);
   } else {
     rasterise_other(splat, mixture, box);

@@ -2,11 +2,13 @@
 // The steps from a splat's position to the weights of its pixels: distance, index, weight.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "analysis/pipeline/ellipse_distance.hpp"
+#include "analysis/pipeline/float_distance.hpp"
 #include "analysis/pipeline/splat_steps.hpp"
 #include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/config.hpp"
@@ -68,6 +70,14 @@ class WeightSteps {
   /// Adds the pixels of row y from x on that lie inside the edge; `entries`(i) of the i-th of `count`.
   template <class Entries>
   void add_row(int y, int x, int count, Entries entries, const Mixture& mixture);
+  // Where float_distances():
+  void rasterise_floats(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
+  void rasterise_floats(const StagedSplat& splat, const StagedShape& shape, const Mixture& mixture,
+                        const driver::Extent& box);
+  /// Adds the pixels of row y in [x, x_end) with square(i) < 1 at the i-th: squared distance over squared radius.
+  template <class Square>
+  void add_float_row(int y, int x, int x_end, const Mixture& mixture, Square square);
+  double float_weight(double u, const Mixture& mixture) const;
   void rasterise_rlut(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
   void rasterise_other(const StagedSplat& splat, const Mixture& mixture, const driver::Extent& box);
   /// Distances of pixels first..end-1 in table entries: RLUT words, or the reals behind them.
@@ -89,7 +99,8 @@ class WeightSteps {
   EllipseDistance ellipse_;
   golden::Footprint golden_;
   std::vector<golden::Footprint::Span> spans_;
-  std::vector<double> across_, down_, own_;
+  std::vector<double> across_, down_, own_, squares_;
+  std::array<std::vector<FloatOffset>, 2> offsets_;
   const double* weights_ = nullptr;
   std::optional<int> followed_x_;
   std::optional<double> followed_entries_;

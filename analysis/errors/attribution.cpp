@@ -164,6 +164,7 @@ Amount amount_of(const Picture& error) {
 Attribution attribute(const stages::Chain& chain, const AttributionOptions& options) {
   Attribution out;
   out.quick = options.quick;
+  out.floats = options.floats;
   const Mixture all = options.floats ? Mixture::all_floats(*options.floats) : Mixture::all_device();
   const std::vector<stages::StepSet> sets = options.floats ? stages::float_sets(chain.sets()) : chain.sets();
   const auto n = static_cast<int>(sets.size());

@@ -49,6 +49,7 @@ struct GroupShare {
 
 struct Attribution {
   bool quick = false;  ///< without `only` and `without`
+  std::optional<stages::FloatNumbers> floats{};  ///< what `device` and the steps are of, if not the device's integers
   stages::Picture real, device;
   Amount total;
   Amount floor8, floor16;        ///< of rounding the real picture once to 8 and to 16 bits

@@ -82,10 +82,10 @@ std::optional<TriedSuggestion> try_suggestion(const ChainOf& chain_of, const cmo
 std::string to_text(const Attribution& a, const std::optional<TriedSuggestion>& tried, int bits) {
   const double unit = lsb_per_unit(bits);
   std::string text = answer(a, tried, bits);
-  text +=
-      fmt::format("error of the device: RMS {:.4f}, max {:.3f}, bias {:+.4f} LSB{}; floor of {} bits: RMS {:.4f}\n\n",
-                  a.total.rms * unit, a.total.greatest * unit, a.total.bias * unit, bits, bits,
-                  (bits == 16 ? a.floor16 : a.floor8).rms * unit);
+  text += fmt::format("error of {}: RMS {:.4f}, max {:.3f}, bias {:+.4f} LSB{}; floor of {} bits: RMS {:.4f}\n\n",
+                      a.floats ? "floats (" + a.floats->text() + ")" : "the device", a.total.rms * unit,
+                      a.total.greatest * unit, a.total.bias * unit, bits, bits,
+                      (bits == 16 ? a.floor16 : a.floor8).rms * unit);
   const auto alone = [&](const std::string& columns) { return a.quick ? std::string{} : columns; };
   text += fmt::format("{:<15} {:<6} {:>8} {:>9} {:>9} {:>9} |{} {:>7}\n", "step", "by", "share", "RMS", "max", "bias",
                       alone(fmt::format(" {:>8} {:>9} | {:>9} |", "alone", "RMS", "left out")), "pixels");
@@ -100,10 +100,13 @@ std::string to_text(const Attribution& a, const std::optional<TriedSuggestion>& 
   }
   text += fmt::format("{:<15} {:<6} {:>6.2f} %{}\n", "remainder", "", percent(a.total.rms > 0.0 ? 1.0 - sum : 0.0),
                       alone(fmt::format("{:>30} | {:>6.2f} %", "", percent(a.only_remainder))));
-  text += fmt::format("sum {:.1f} %: driver {:.1f} %, device {:.1f} %{}\n",
-                      100.0 * (a.driver_share + a.device_share + a.both_share), 100.0 * a.driver_share,
-                      100.0 * a.device_share,
-                      a.both_share != 0.0 ? fmt::format(", both together {:.1f} %", 100.0 * a.both_share) : "");
+  if (a.floats)
+    text += fmt::format("sum {:.1f} %\n", 100.0 * sum);
+  else
+    text += fmt::format("sum {:.1f} %: driver {:.1f} %, device {:.1f} %{}\n",
+                        100.0 * (a.driver_share + a.device_share + a.both_share), 100.0 * a.driver_share,
+                        100.0 * a.device_share,
+                        a.both_share != 0.0 ? fmt::format(", both together {:.1f} %", 100.0 * a.both_share) : "");
   if (!a.groups.empty()) {
     text += "groups (Shapley)";
     for (const GroupShare& group : a.groups) text += fmt::format("  {} {:.2f} %", group.name, 100.0 * group.share);
@@ -135,9 +138,16 @@ Json to_json(const Attribution& a, const std::optional<TriedSuggestion>& tried) 
     json["steps"].back()["alone"] = amount_json(s.only);
     json["steps"].back()["left_out"] = amount_json(s.without);
   }
-  json["driver_share"] = a.driver_share;
-  json["device_share"] = a.device_share;
-  json["both_share"] = a.both_share;
+  if (a.floats) {
+    json["floats"] = {{"operands", a.floats->operands.name},
+                      {"sums", a.floats->sums.name},
+                      {"centres", a.floats->tile_centres ? "tile" : "picture"},
+                      {"subnormals", a.floats->subnormals}};
+  } else {
+    json["driver_share"] = a.driver_share;
+    json["device_share"] = a.device_share;
+    json["both_share"] = a.both_share;
+  }
   if (!a.quick) json["alone_remainder"] = a.only_remainder;
   for (const GroupShare& group : a.groups) json["groups"][group.name] = group.share;
   json["pixels"] = Json::array();

@@ -44,6 +44,14 @@ const char* to_string(Group group) {
   return kNames[static_cast<std::size_t>(group)];
 }
 
+std::string FloatNumbers::text() const {
+  std::string text(operands.name);
+  if (sums != operands) text += ", sums " + std::string(sums.name);
+  if (tile_centres) text += ", centres in the tile";
+  if (!subnormals) text += ", without subnormals";
+  return text;
+}
+
 std::string Mixture::text() const {
   if (device_.all()) return "all";
   if (device_.none() && floats_.none()) return "none";

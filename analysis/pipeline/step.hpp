@@ -75,6 +75,7 @@ struct FloatNumbers {
   FloatFormat operands{}, sums{};  ///< sums: of sheets, and of a pixel's colours
   bool subnormals = true;
   bool tile_centres = false;  ///< centres relative to the tile of a pixel, not to the picture
+  std::string text() const;   ///< "fp16, sums fp32, centres in the tile"
 };
 
 /// A hybrid pipeline: a side for each step.

@@ -19,6 +19,8 @@ struct ErrorsArguments {
   StagedFlags of;
   int lsb_bits = 8;
   bool quick = false, shapley = false;
+  std::optional<std::string> formats;
+  bool tile_centres = false, flush_subnormals = false;
   std::string blame, maps;  ///< a file, and a prefix; empty for none
 };
 
@@ -37,6 +39,25 @@ nlohmann::ordered_json to_json(const ErrorsResult& result) {
   return json;
 }
 
+/// Of --formats, "fp16" or "fp16,fp32".
+std::optional<stages::FloatNumbers> floats_of(const ErrorsArguments& arguments) {
+  if (!arguments.formats) {
+    if (arguments.tile_centres || arguments.flush_subnormals)
+      throw_usage({.where = arguments.tile_centres ? "--tile-centres" : "--flush-subnormals",
+                   .what = "describes floats",
+                   .expected = {},
+                   .got = {},
+                   .fix = "add --formats, or leave it out"});
+    return std::nullopt;
+  }
+  const std::string& names = *arguments.formats;
+  const auto comma = std::min(names.find(','), names.size());
+  stages::FloatNumbers out{.subnormals = !arguments.flush_subnormals, .tile_centres = arguments.tile_centres};
+  out.operands = stages::float_format(names.substr(0, comma), "--formats");
+  out.sums = comma == names.size() ? out.operands : stages::float_format(names.substr(comma + 1), "--formats");
+  return out;
+}
+
 /// "PREFIX.STEP.png" (or .exr) for the total error and each step.
 std::vector<std::string> map_names(const std::string& prefix, const std::vector<stages::StepSet>& sets,
                                    const char* ending) {
@@ -48,7 +69,7 @@ std::vector<std::string> map_names(const std::string& prefix, const std::vector<
 
 void write_maps(const ErrorsArguments& arguments, const StagedScene& scene, const ErrorsResult& result) {
   const analysis::Attribution& a = result.attribution;
-  const auto sets = scene.sets();
+  const auto sets = a.floats ? stages::float_sets(scene.sets()) : scene.sets();
   const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
   const Image real = analysis::to_image(a.real);
   const images::Metadata metadata = scene.metadata("errors");
@@ -67,7 +88,8 @@ ExitCode run(const ErrorsArguments& arguments) {
   const Output output(arguments.common);
   StagedScene scene(arguments.of);
   const cmodel::Config& config = scene.config();
-  const auto sets = scene.sets();
+  const auto floats = floats_of(arguments);
+  const auto sets = floats ? stages::float_sets(scene.sets()) : scene.sets();
   check_outputs({.images = map_names(arguments.maps, sets, ".exr"),
                  .maps = joined(map_names(arguments.maps, sets, ".png"), {arguments.blame}),
                  .raws = {},
@@ -80,12 +102,15 @@ ExitCode run(const ErrorsArguments& arguments) {
   {
     const auto chain = scene.chain(threads, output);
     ProgressBar bar("errors", watching(arguments.common));
-    result.attribution = analysis::attribute(
-        *chain,
-        {.quick = arguments.quick, .shapley = arguments.shapley, .threads = threads, .progress = bar.callback()});
+    result.attribution = analysis::attribute(*chain, {.quick = arguments.quick,
+                                                      .floats = floats,
+                                                      .shapley = arguments.shapley,
+                                                      .threads = threads,
+                                                      .progress = bar.callback()});
   }
-  result.tried = analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); },
-                                          config, result.attribution, threads);
+  if (!floats)
+    result.tried = analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); },
+                                            config, result.attribution, threads);
   if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
   if (!arguments.maps.empty()) write_maps(arguments, scene, result);
   output.line(errors_heading(result.scene, config) +
@@ -102,6 +127,10 @@ void declare(Options& options, ErrorsArguments& to) {
   options.flag("--quick", to.quick, "skip the runs with one step alone and with one left out: a third of the frames");
   options.flag("--shapley", to.shapley,
                "order-independent shares (Shapley) of groups of steps: 30 more frames, 62 with --classify post");
+  options.word("--formats", to.formats, "OPERANDS[,SUMS]",
+               "of floats instead of the device's integers: fp16, bf16, tf19, e5m2, e4m3 or fp32");
+  options.flag("--tile-centres", to.tile_centres, "floats: centres relative to the tile of a pixel");
+  options.flag("--flush-subnormals", to.flush_subnormals, "floats: results below the least normal number are 0");
   options.group("Output");
   options.word("--blame", to.blame, "FILE",
                "write a map of the step with the largest error in each pixel, with legend, .png");
@@ -113,6 +142,8 @@ void declare(Options& options, ErrorsArguments& to) {
   options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
                   "a third of the time, as JSON");
   options.example("fastsplat errors --gaussians shells:500 --size 96", "the same of 3-D Gaussians");
+  options.example("fastsplat errors --gaussians shells:500 --size 96 --formats fp16,fp32 --quick",
+                  "what half floats would cost, with sums of binary32");
 }
 
 }  // namespace

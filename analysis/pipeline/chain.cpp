@@ -55,8 +55,10 @@ class Chain::Band {
         pixels_(chain.scene_, chain.config_, mixture, golden_units),
         product_(product_rule(chain.config_, mixture)),
         settled_(rows, width),
-        ring_(chain.steps_ ? static_cast<std::size_t>(chain.steps_->reach()) : 1, golden::Sheet(rows, width)),
-        picture_(static_cast<std::size_t>(rows.end - rows.first) * width, pixels_.initial()) {}
+        ring_(chain.steps_ ? static_cast<std::size_t>(chain.steps_->reach(mixture)) : 1, golden::Sheet(rows, width)),
+        picture_(static_cast<std::size_t>(rows.end - rows.first) * width, pixels_.initial()) {
+    if (samples_) product_.sum = {};  // a sample has no sheet
+  }
 
   void run(const BandBins& bins, int band) {
     for (int sheet = 0; sheet < chain_.sheets(); ++sheet) {

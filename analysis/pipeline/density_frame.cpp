@@ -21,7 +21,7 @@ DensityBand::DensityBand(const Frame& frame, golden::Rows rows)
       pixels_(frame.scene, frame.config, frame.mixture, frame.golden_units),
       product_(product_rule(frame.config, frame.mixture)),
       // The sheets that current splats reach, and the two in front of them.
-      ring_(static_cast<std::size_t>(frame.steps.reach()) + 2, golden::Sheet(with_halo_, width_)),
+      ring_(static_cast<std::size_t>(frame.steps.reach(frame.mixture)) + 2, golden::Sheet(with_halo_, width_)),
       nothing_(with_halo_, width_),
       picture_(static_cast<std::size_t>(rows.end - rows.first) * static_cast<std::size_t>(width_), pixels_.initial()),
       material_(static_cast<std::size_t>(width_)),

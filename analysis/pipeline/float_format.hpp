@@ -16,8 +16,8 @@ namespace fastsplat::stages {
 struct FloatFormat {
   std::string_view name = "fp16";
   int exponent_bits = 5, fraction_bits = 10;
-  /// The largest exponent holds infinities and NaN. Otherwise numbers, but for its last word, which is NaN (OCP's
-  /// E4M3).
+  /// The largest exponent holds infinities and NaN; what is too large becomes an infinity. Otherwise it holds numbers,
+  /// but for its last word, which is NaN; what is too large becomes the largest number (OCP's E4M3, saturating).
   bool infinite = true;
 
   int bias() const { return (1 << (exponent_bits - 1)) - 1; }
@@ -45,7 +45,7 @@ class RoundToFloat {
         least_normal_(format.least_normal()),
         greatest_(format.greatest()),
         step_(std::ldexp(least_normal_, -format.fraction_bits)),
-        beyond_(format.infinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN()) {}
+        beyond_(format.infinite ? std::numeric_limits<double>::infinity() : greatest_) {}
 
   bool on() const { return on_; }
   double operator()(double value) const {

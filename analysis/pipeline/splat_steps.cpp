@@ -132,8 +132,9 @@ SplatSteps::SplatSteps(const scene::Scene& scene, const cmodel::Config& config)
   }
 }
 
-int SplatSteps::reach() const {
+int SplatSteps::reach(const Mixture& mixture) const {
   if (plan_.use != scene::SheetUse::Sliced) return 1;
+  if (mixture.floats(Step::Depth)) return plan_.slabs.count;  // coarse floats bring many boundaries together
   // One slab more than the kernel's length if its ends fall inside slabs, and one at each end for rounded depths; a
   // shrink is off by half a word at most.
   const double growth = shaped() ? scene::largest_growth(scene_) : 1.0, ulp = 0.5 / shrink_.scale;
@@ -149,9 +150,7 @@ int SplatSteps::first_sheet(const scene::RealSplat& splat, double z, const Mixtu
   if (mixture.device(Step::Depth))
     return slices_.first(static_cast<std::int32_t>(z * depth_.scale), slices_.growth(growth.shrink));
   const double slab = std::floor((z - scene_.kernel.radius() * growth.real - plan_.slabs.first) / plan_.slabs.width);
-  // As floats, a boundary may come to lie behind the kernel's beginning.
-  const double more = mixture.floats(Step::Depth) ? 1.0 : 0.0;
-  return static_cast<int>(std::clamp(slab - more, 0.0, plan_.slabs.count - 1.0));
+  return static_cast<int>(std::clamp(slab, 0.0, plan_.slabs.count - 1.0));
 }
 
 void SplatSteps::circle(const scene::RealSplat& real, const Mixture& mixture, double unit_value,
@@ -236,6 +235,10 @@ Staged SplatSteps::staged(const SplatList& list, const Mixture& mixture, bool go
                   ? slices_.quantise_depth(real.depth - plan_.slabs.first) * depth_ulp_
                   : 0.0;
     splat.first = first_sheet(real, splat.z, mixture, growth);
+    // As floats, a boundary may come to lie behind the kernel's beginning.
+    while (mixture.floats(Step::Depth) && plan_.use == scene::SheetUse::Sliced && splat.first > 0 &&
+           phi(splat, splat.first, mixture, growth) > 0.0)
+      --splat.first;
   };
   if (carry) {  // rounding errors go from splat to splat
     for (std::size_t i = 0; i < out.splats.size(); ++i) stage(list.traversed.empty() ? i : list.traversed[i]);

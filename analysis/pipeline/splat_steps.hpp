@@ -119,7 +119,7 @@ class SplatSteps {
 
   bool carries() const { return quantiser_.carries(); }  ///< rounding errors are diffused to the next splat
   int sheets() const { return plan_.slabs.count; }
-  int reach() const;  ///< the most sheets that one splat reaches
+  int reach(const Mixture& mixture = {}) const;  ///< the most sheets that one splat reaches
   const driver::RadiusSets& sets() const { return sets_; }
   bool shaped() const { return shaper_.has_value(); }  ///< a frame with ellipses
 

@@ -125,6 +125,7 @@ class Mixture {
   /// Rounds a step's operations, if it is floats; sums have their own format.
   const RoundToFloat& rounding(Step step) const { return floats(step) ? operand_ : exact_; }
   const RoundToFloat& sum_rounding(Step step) const { return floats(step) ? sum_ : exact_; }
+  const FloatNumbers& numbers() const { return numbers_; }  ///< of the steps that are floats
   bool tile_centres() const { return numbers_.tile_centres; }
   bool operator==(const Mixture& other) const { return device_ == other.device_ && floats_ == other.floats_; }
   std::string text() const;  ///< "position, snap"; "none"; "all"; steps that are floats with the format: "weight fp16"

@@ -16,6 +16,7 @@
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
+#include "tests/pipeline/oracle/rounding.hpp"
 
 namespace fastsplat::stages {
 namespace {
@@ -126,6 +127,76 @@ TEST(GaussianChain, AllRealIsGoldensPicture) {
   EXPECT_GT(worst, 0.0);
 }
 
+/// docs/floats.md, pixel by pixel.
+Picture as_floats(const scene::GaussianScene& scene, const cmodel::Config& config, const FloatNumbers& numbers) {
+  oracle::Closeness ignored;
+  const auto n = [&](double v) { return oracle::to_float(numbers.operands, numbers.subnormals, v, ignored); };
+  const auto s = [&](double v) { return oracle::to_float(numbers.sums, numbers.subnormals, v, ignored); };
+  const auto gaussians = scene::project_all(scene);
+  const double rim = scene.description.cutoff * scene.description.cutoff;
+  Picture out{scene.camera.width(), scene.camera.height(), {}};
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      golden::Sums pixel{0.0, 0.0, 0.0, 1.0};
+      for (const scene::ProjectedGaussian& one : gaussians) {
+        if (pixel[3] < scene::kFinished) break;
+        const double centre_x = numbers.tile_centres ? one.x : n(one.x),
+                     centre_y = numbers.tile_centres ? one.y : n(one.y);
+        if (std::abs(x - centre_x) > std::sqrt(rim * one.shape.xx) ||
+            std::abs(y - centre_y) > std::sqrt(rim * one.shape.yy))
+          continue;
+        const auto offset = [&](int pixel_at, double centre, double real, int tile) {
+          const int corner = pixel_at / tile * tile;
+          return numbers.tile_centres ? n(pixel_at - corner - n(real - corner)) : n(pixel_at - centre);
+        };
+        const double dx = offset(x, centre_x, one.x, config.tile_width),
+                     dy = offset(y, centre_y, one.y, config.tile_height);
+        const double xx = rim * one.shape.xx, xy = rim * one.shape.xy, yy = rim * one.shape.yy,
+                     determinant = xx * yy - xy * xy;
+        const double mixed = n(n(-2.0 * xy / determinant) * n(dx * dy));
+        const double u = n(n(n(n(yy / determinant) * n(dx * dx)) + mixed) + n(n(xx / determinant) * n(dy * dy)));
+        if (!(u < 1.0)) continue;
+        const double w = n(std::exp(-0.5 * rim * std::max(u, 0.0)));
+        const double opacity = n(w * n(one.opacity));
+        for (std::size_t c = 0; c < 3; ++c)
+          pixel[c] = s(pixel[c] + n(pixel[3] * n(w * n(one.opacity * one.colour[static_cast<int>(c)]))));
+        pixel[3] = n(pixel[3] * n(1.0 - opacity));
+      }
+      for (std::size_t c = 0; c < 4; ++c) pixel[c] = n(c < 3 ? pixel[c] : 1.0 - pixel[c]);
+      out.pixels.push_back(pixel);
+    }
+  }
+  return out;
+}
+
+TEST(GaussianChain, AllFloatsIsThePageValueByValue) {
+  cmodel::Config config = usual_config();
+  config.tile_width = 32, config.tile_height = 24;
+  fastsplat::test::Random random(2180);
+  std::size_t values = 0, different = 0, light = 0, beside = 0;
+  for (int turn = 0; turn < 16; ++turn) {
+    const scene::GaussianScene scene = scenes()[static_cast<std::size_t>(turn) % 4];
+    const FloatNumbers numbers = turn == 0 ? FloatNumbers{} : test::random_floats(random);
+    const Chain chain(scene, config);
+    const Picture picture = chain(Mixture::all_floats(numbers), 2), golden = chain(Mixture{}, 2),
+                  expected = as_floats(scene, config, numbers);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        const double here = picture.pixels[i][c], there = expected.pixels[i][c];
+        ++values;
+        light += there != 0.0 ? 1 : 0;
+        different += here == there || (std::isnan(here) && std::isnan(there)) ? 0 : 1;
+        beside += here != golden.pixels[i][c] ? 1 : 0;
+      }
+    }
+  }
+  std::printf("[figure] values = %zu, not 0: %zu, beside golden: %zu, different from the page: %zu (limit 0)\n", values,
+              light, beside, different);
+  EXPECT_EQ(different, 0u);
+  EXPECT_GT(light, values / 4);
+  EXPECT_GT(beside, values / 4);
+}
+
 TEST(GaussianChain, AFollowedPixelIsThePicturesInEveryMixture) {
   const cmodel::Config config = usual_config();
   const scene::GaussianScene scene = scenes().front();
@@ -133,7 +204,10 @@ TEST(GaussianChain, AFollowedPixelIsThePicturesInEveryMixture) {
   fastsplat::test::Random random(7);
   std::size_t pixels = 0, different = 0, splats = 0;
   for (int turn = 0; turn < 12; ++turn) {
-    const Mixture mixture = turn == 0 ? Mixture{} : turn == 1 ? Mixture::all_device() : test::random_mixture(random);
+    const Mixture mixture = turn == 0       ? Mixture{}
+                            : turn == 1     ? Mixture::all_device()
+                            : turn % 2 == 0 ? test::random_mixture(random)
+                                            : test::random_mixture_with_floats(random);
     const Picture picture = chain(mixture, 2);
     for (int i = 0; i < 12; ++i) {
       const int x = static_cast<int>(random.between(5, picture.width - 6)),

@@ -97,6 +97,27 @@ Mixture random_mixture(fastsplat::test::Random& random, bool densities) {
   return mixture;
 }
 
+FloatNumbers random_floats(fastsplat::test::Random& random) {
+  const auto any = [&] {
+    const auto last = static_cast<std::int64_t>(float_formats().size()) - 1;
+    return float_formats()[static_cast<std::size_t>(random.between(0, last))];
+  };
+  FloatNumbers out{.operands = any(), .subnormals = random.once_in(2), .tile_centres = random.once_in(2)};
+  out.sums = random.once_in(2) ? out.operands : any();
+  return out;
+}
+
+Mixture random_mixture_with_floats(fastsplat::test::Random& random) {
+  Mixture mixture = random_mixture(random, true);
+  const Mixture floats = Mixture::all_floats(random_floats(random));
+  for (const Step step : all_steps())
+    if (random.once_in(2)) mixture = mixture.with({&step, 1}, floats);
+  const auto real = [&](Step step) { mixture = mixture.with({&step, 1}, false); };
+  if (mixture.device(Step::Depth) && mixture.floats(Step::Sheet)) real(Step::Depth);
+  if (mixture.device(Step::Distance) && floats.tile_centres()) real(Step::Distance);
+  return mixture;
+}
+
 std::vector<scene::SceneDescription> small_scenes() {
   std::vector<scene::SceneDescription> scenes(3);
   for (scene::SceneDescription& scene : scenes) {

@@ -25,6 +25,10 @@ std::vector<scene::SceneDescription> small_density_scenes();
 
 /// Mixtures of few steps, of half of them, of nearly all; those of densities only on request.
 Mixture random_mixture(fastsplat::test::Random& random, bool densities = false);
+/// Any formats, sums in the same or another one, centres in the picture or in tiles.
+FloatNumbers random_floats(fastsplat::test::Random& random);
+/// Steps of all three sides. Sheets and positions are not floats where the page does not say what that means.
+Mixture random_mixture_with_floats(fastsplat::test::Random& random);
 
 /// All keys, to reproduce a configuration.
 std::string text_of(const cmodel::Config& config);

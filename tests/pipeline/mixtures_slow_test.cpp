@@ -20,8 +20,8 @@ namespace {
 
 using fastsplat::test::Random, fastsplat::test::named_config, fastsplat::test::random_config, fastsplat::test::seed_or;
 using fastsplat::test::random_density_config;
-using test::random_density_scene, test::random_mixture, test::random_scene, test::small_density_scenes,
-    test::small_scenes, test::text_of;
+using test::random_density_scene, test::random_floats, test::random_mixture, test::random_mixture_with_floats,
+    test::random_scene, test::small_density_scenes, test::small_scenes, test::text_of;
 
 /// The difference between two orders of the same sums: thousands of terms at a pixel, n 2^-53 of a sum of n, and as
 /// much again for the later steps. A word may differ if its rounding depends on that: oracle::Closeness marks these
@@ -66,7 +66,9 @@ void compare(const scene::Scene& scene, const cmodel::Config& config, const Chai
     for (std::size_t c = 0; c < 4; ++c) figures.lit += expected[i][c] != 0.0 ? 1 : 0;
     figures.close += close[i] ? 1 : 0;
     for (std::size_t c = 0; c < 4; ++c) {
-      const double difference = std::abs(picture.pixels[i][c] - expected[i][c]);
+      const double here = picture.pixels[i][c], there = expected[i][c];
+      const bool same = here == there || (std::isnan(here) && std::isnan(there));  // floats may overflow
+      const double difference = same ? 0.0 : std::abs(here - there);
       const bool over = !(difference <= bound * std::max(1.0, std::abs(expected[i][c])));
       ++figures.values;
       if (over && close[i]) {
@@ -157,6 +159,41 @@ TEST_P(OfAKind, AtRandomTheChainIsItsPage) {
   EXPECT_LE(figures.over_at_edge * 10000, figures.values);
   met.print();
   EXPECT_GT(met.methods[static_cast<std::size_t>(scene::Method::Westover)], wanted / 20);
+}
+
+// docs/floats.md: sheets, every sample and densities; all steps floats, and steps of all three sides.
+TEST(Mixtures, OfFloatsAtRandomTheChainIsItsPage) {
+  Random random(seed_or(2160));
+  Figures all_floats, sides;
+  std::uint64_t sampled = 0, densities = 0, overflowed = 0;
+  while (sides.mixtures < 200) {
+    const bool dense = random.once_in(4);
+    const cmodel::Config config = dense ? random_density_config(random) : random_config(random);
+    scene::SceneDescription description = dense ? random_density_scene(random) : random_scene(random);
+    if (!dense && config.composite_every_sample != 0 && random.once_in(2)) sample(description);
+    const scene::Scene scene = scene::build_scene(description);
+    const Mixture floats = Mixture::all_floats(random_floats(random)), mixture = random_mixture_with_floats(random);
+    try {
+      const Chain chain(scene, config);
+      compare(scene, config, chain, floats, all_floats);
+      compare(scene, config, chain, mixture, sides);
+      densities += dense ? 1 : 0;
+      sampled += description.method == scene::Method::Westover ? 1 : 0;
+      for (const golden::Sums& pixel : chain(floats).pixels) overflowed += std::isfinite(pixel[0]) ? 0 : 1;
+    } catch (const UserError&) {
+      continue;  // the configuration cannot hold the scene
+    }
+  }
+  all_floats.print("floats");
+  sides.print("floats beside integers and reals");
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::printf("[figure] scenes with every sample %llu, densities %llu; pixels that overflowed %llu\n", number(sampled),
+              number(densities), number(overflowed));
+  EXPECT_GT(all_floats.lit, all_floats.values / 5);
+  EXPECT_GT(sampled, 20u);
+  EXPECT_GT(densities, 20u);
+  EXPECT_LE(all_floats.over_at_edge * 1000, all_floats.values);
+  EXPECT_LE(sides.over_at_edge * 1000, sides.values);
 }
 
 TEST(Mixtures, OfDensitiesAtRandomTheChainIsItsPage) {

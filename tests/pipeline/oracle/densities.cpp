@@ -86,8 +86,9 @@ void Densities::visible(double density, Vector& e, double& tau, Closeness& close
     const scene::Material other = classify_.evaluate(beside);
     closeness.close = closeness.close || other.colour != here.colour || other.extinction != here.extinction;
   }
-  for (int c = 0; c < 3; ++c) e[static_cast<std::size_t>(c)] = static_cast<double>(here.colour[c]);
-  tau = static_cast<double>(here.extinction) * depth_;
+  const auto rounded = [&](double v) { return narrow(mixture_, Step::Transfer, v, closeness); };
+  for (int c = 0; c < 3; ++c) e[static_cast<std::size_t>(c)] = rounded(static_cast<double>(here.colour[c]));
+  tau = rounded(static_cast<double>(here.extinction) * depth_);
 }
 
 Densities::Vector Densities::slope(const Vector& d, int x, int y, int sheet, Closeness& closeness) const {
@@ -102,6 +103,11 @@ Densities::Vector Densities::slope(const Vector& d, int x, int y, int sheet, Clo
   };
   const glm::dvec3 right = scene_.camera.right(), down = scene_.camera.down();
   double tx = lean(x, y, right), ty = lean(x, y, down);
+  if (mixture_.floats(Step::Slope)) {
+    const auto f = [&](double v) { return narrow(mixture_, Step::Slope, v, closeness); };
+    const double across = f(f(d[0]) * f(sxy)), along_y = f(f(d[1]) * f(sxy)), ahead = f(f(d[2]) * f(sz));
+    return {across, along_y, f(f(ahead - f(f(tx) * across)) - f(f(ty) * along_y))};
+  }
   if (!mixture_.device(Step::Slope)) return {d[0] * sxy, d[1] * sxy, d[2] * sz - tx * d[0] * sxy - ty * d[1] * sxy};
   // N-8-95: SHEETS. N-8-94: LIGHTING, the ways of rays.
   sxy = near(sxy, 12, 0.0, 1.0);
@@ -123,10 +129,15 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
   if (tau == 0.0) return {};
   const scene::Shading& shading = scene_.shading;
   const Vector g = slope(d, x, y, sheet, closeness);
-  const double square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+  const auto dot = [&](const Vector& a, const Vector& b, Step step) {
+    const auto f = [&](double v) { return narrow(mixture_, step, v, closeness); };
+    return f(f(f(a[0] * b[0]) + f(a[1] * b[1])) + f(a[2] * b[2]));
+  };
+  const double square = dot(g, g, Step::Normal);
   double h = 0.0, matt = 0.0, glint = 0.0;
   if (square != 0.0) {
-    double length = std::sqrt(square), inverse = 1.0 / length;
+    const auto normal = [&](double v) { return narrow(mixture_, Step::Normal, v, closeness); };
+    double length = normal(std::sqrt(square)), inverse = normal(1.0 / length);
     if (mixture_.device(Step::Normal)) {
       double m = square, power = 1.0;  // square = m power^2, m in 1..4
       for (; m >= 4.0; m /= 4.0) power *= 2.0;
@@ -138,10 +149,11 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
       inverse = r / power;
     }
     const auto a = [&](const Vector& v) {
-      double along = 0.0;
       const bool word = mixture_.device(Step::Facing);  // N-8-94: L and H
-      for (std::size_t i = 0; i < 3; ++i) along += g[i] * (word ? near(v[i], 14, -1.0, 1.0) : v[i]);
-      const double cosine = std::abs(along) * inverse;
+      const auto f = [&](double value) { return narrow(mixture_, Step::Facing, value, closeness); };
+      Vector to{};
+      for (std::size_t i = 0; i < 3; ++i) to[i] = word ? near(v[i], 14, -1.0, 1.0) : f(v[i]);
+      const double cosine = f(std::abs(dot(g, to, Step::Facing)) * inverse);
       return word ? n(cosine, 14, 0.0, 1.0, closeness) : cosine;
     };
     const double light = a(light_), half = a(half_);
@@ -151,8 +163,9 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
       matt = n(word(shading.ambient) + word(shading.diffuse) * light, 12, 0.0, largest(5, 12), closeness);
       glint = word(shading.specular) * between(glint_, std::min(half, 1.0) * 128.0, 12, closeness);
     } else {
-      matt = shading.ambient + shading.diffuse * light;
-      glint = shading.specular * std::pow(half, shading.shininess);
+      const auto f = [&](double v) { return narrow(mixture_, Step::Phong, v, closeness); };
+      matt = f(f(shading.ambient) + f(f(shading.diffuse) * light));
+      glint = f(f(shading.specular) * f(std::pow(half, shading.shininess)));
     }
     const double unit = scene_.volume->kernel_unit(), middle = (nearest_ + (sheet + 0.5) * width_) * unit;
     const double p = scene_.camera.project(scene_.camera.direction() * middle).scale * unit;
@@ -162,14 +175,17 @@ std::array<double, 4> Densities::operator()(double density, const Vector& d, int
       const double c = !shading.on ? 0.0 : floor > 0.0 ? near(m / floor, 8, 0.0, most) : most;
       h = n(length * c - 1.0, 8, 0.0, 1.0, closeness);
     } else {
-      h = !shading.on ? 0.0 : floor > 0.0 ? cut(length * m / floor - 1.0, 0.0, 1.0) : 1.0;
+      const auto f = [&](double v) { return narrow(mixture_, Step::Blend, v, closeness); };
+      const double above = floor > 0.0 ? f(f(length * f(m / floor)) - 1.0) : 1.0;
+      h = !shading.on ? 0.0 : cut(above, 0.0, 1.0);
     }
   }
   std::array<double, 4> out{0.0, 0.0, 0.0, tau};
   for (std::size_t c = 0; c < 3; ++c) {
-    double k = e[c] + h * (e[c] * matt + glint - e[c]);
+    const auto f = [&](double v) { return narrow(mixture_, Step::Shaded, v, closeness); };
+    double k = f(e[c] + f(h * f(f(f(e[c] * matt) + glint) - e[c])));
     k = mixture_.device(Step::Shaded) ? n(k, 16, 0.0, 1.0, closeness) : cut(k, 0.0, 1.0);
-    out[c] = k * tau;
+    out[c] = narrow(mixture_, Step::Colour, k * tau, closeness);
     if (mixture_.device(Step::Colour))
       out[c] =
           n(out[c], config_.sheet_frac_bits, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits), closeness);

@@ -30,23 +30,35 @@ class Frame {
         radial_(radial_table(scene.kernel.a(), scene.kernel.radius(), config)),
         factor_(factor_table(config)) {}
 
-  /// Steps distance, index and weight: `dx`, `dy` pixels from the centre, both less than the radius.
-  double weight(double dx, double dy, double radius, Closeness& closeness) const {
+  /// Steps distance, index and weight of a pixel in the box of a splat.
+  double weight(const Splat& splat, int x, int y, Closeness& closeness) const {
     using cmodel::IndexKind;
     const IndexKind kind = config_.index();
+    const double dx = x - splat.x, dy = y - splat.y, radius = splat.radius;
+    const bool of_offsets = kind == IndexKind::Blit2d || kind == IndexKind::Separable;
+    const bool in_tile = mixture_.floats(Step::Position) && mixture_.tile_centres();
+    if (!mixture_.device(Step::Distance) && (mixture_.floats(Step::Distance) || in_tile) &&
+        !(of_offsets && mixture_.device(Step::Weight)))
+      return of_floats(splat, x, y, in_tile, closeness);
     if (kind == IndexKind::Blit2d || kind == IndexKind::Separable) return read(dx, dy, radius, closeness);
     const int n = config_.radial_entries, g = config_.rlut_guard_bits;
-    const bool linear = kind == IndexKind::Linear;
     const double q = kind == IndexKind::Rlut ? distance(dx, radius, closeness) + distance(dy, radius, closeness)
                                              : computed(dx, dy, radius, closeness);
-    const auto footprint = [&](double part) { return this->footprint(linear ? part * part : part); };
     compare(q, n, g, closeness);
     if (q >= n) return 0.0;
-    if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return footprint(q / n);
+    return of_entries(q, closeness);
+  }
+
+  double of_entries(double q, Closeness& closeness) const {
+    const int n = config_.radial_entries;
+    const bool linear = config_.index() == cmodel::IndexKind::Linear;
+    const auto footprint = [&](double part) { return this->footprint(linear ? part * part : part); };
+    const auto rounded = [&](double w) { return narrow(mixture_, Step::Weight, w, closeness); };
+    if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight)) return rounded(footprint(q / n));
     const double t = trn(q, 0, closeness);
     if (config_.interpolates()) return on_line(q, t, closeness);
     const double at = mixture_.device(Step::Index) ? t + 0.5 : q;
-    if (!mixture_.device(Step::Weight)) return footprint(at / n);
+    if (!mixture_.device(Step::Weight)) return rounded(footprint(at / n));
     // In this order: if `at` is the entry's own place, only the entry remains.
     return std::max(0.0, footprint(at / n) - footprint((t + 0.5) / n) + radial_[static_cast<std::size_t>(t)]);
   }
@@ -57,7 +69,7 @@ class Frame {
   }
 
   double product(double v, double w, Closeness& closeness) const {
-    if (!mixture_.device(Step::Product)) return v * w;
+    if (!mixture_.device(Step::Product)) return narrow(mixture_, Step::Product, v * w, closeness);
     const double rounded = round_by(config_.rounding_product, v * w, config_.sheet_frac_bits, closeness);
     return cut(rounded, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
   }
@@ -68,6 +80,11 @@ class Frame {
   void cut_sum(Values& sums) const {
     if (!mixture_.device(Step::Sheet)) return;
     for (double& sum : sums) sum = cut(sum, 0.0, largest(config_.sheet_int_bits, config_.sheet_frac_bits));
+  }
+
+  /// Of a sheet, and of an X-ray.
+  double sum(double before, double more, Closeness& closeness) const {
+    return narrow(mixture_, Step::Sheet, before + more, closeness, true);
   }
 
   bool densities() const { return scene_.description.classify == scene::ClassifyOrder::Post; }
@@ -83,7 +100,7 @@ class Frame {
     if (!samples() && !densities()) cut_sum(s);
     if (s == Values{}) return;
     if (xray_) {
-      for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] += s[c];
+      for (std::size_t c = 0; c < 4; ++c) pixel.colour[c] = sum(pixel.colour[c], s[c], pixel.closeness);
       cut_sum(pixel.colour);
       return;
     }
@@ -94,8 +111,11 @@ class Frame {
     if (pixel.t < least || pixel.t < 1e-20) return;
     const double before = pixel.t;
     if (!mixture_.device(Step::Composite)) {
-      for (std::size_t c = 0; c < 3; ++c) pixel.colour[c] += before * slab[c];
-      pixel.t = before * (1.0 - slab[3]);
+      const auto rounded = [&](double v) { return narrow(mixture_, Step::Composite, v, pixel.closeness); };
+      for (std::size_t c = 0; c < 3; ++c)
+        pixel.colour[c] =
+            narrow(mixture_, Step::Composite, pixel.colour[c] + rounded(before * slab[c]), pixel.closeness, true);
+      pixel.t = rounded(before * rounded(1.0 - slab[3]));
       return;
     }
     const int tf = config_.composite_frac_bits;
@@ -109,6 +129,7 @@ class Frame {
   Values out(Pixel& pixel) const {
     Values values = pixel.colour;
     if (!xray_) values[3] = 1.0 - pixel.t;
+    for (double& value : values) value = narrow(mixture_, Step::Pixel, value, pixel.closeness);
     if (!mixture_.device(Step::Pixel)) return values;
     for (double& value : values) {
       value =
@@ -118,6 +139,25 @@ class Frame {
   }
 
  private:
+  /// The weight where steps position or distance are floats.
+  double of_floats(const Splat& splat, int x, int y, bool in_tile, Closeness& closeness) const {
+    const auto rounded = [&](double v) { return narrow(mixture_, Step::Distance, v, closeness); };
+    const auto along = [&](int pixel, double centre, int tile) {
+      const int corner = in_tile ? pixel - pixel % tile : 0;
+      const double from = in_tile ? narrow(mixture_, Step::Position, centre - corner, closeness) : centre;
+      const double d = rounded(pixel - corner - from);
+      return rounded(d * d);
+    };
+    const double square = rounded(along(x, splat.x, config_.tile_width) + along(y, splat.y, config_.tile_height));
+    const double u = rounded(square * narrow(mixture_, Step::Radius, 1.0 / (splat.radius * splat.radius), closeness));
+    compare(u, 1.0, 0, closeness);
+    if (!(u < 1.0)) return 0.0;
+    if (!mixture_.device(Step::Index) && !mixture_.device(Step::Weight))
+      return narrow(mixture_, Step::Weight, footprint(u), closeness);
+    return of_entries(config_.radial_entries * (config_.index() == cmodel::IndexKind::Linear ? std::sqrt(u) : u),
+                      closeness);
+  }
+
   double footprint(double u) const {
     return std::exp(-scene_.kernel.a() * scene_.kernel.radius() * scene_.kernel.radius() * u);
   }
@@ -129,7 +169,7 @@ class Frame {
       return line_end(scene_.kernel.a(), kernel_radius, config_, static_cast<int>(at));
     };
     const double line = end(t) - (end(t) - end(t + 1)) * part;
-    if (!mixture_.device(Step::Weight)) return line;
+    if (!mixture_.device(Step::Weight)) return narrow(mixture_, Step::Weight, line, closeness);
     const auto i = static_cast<std::size_t>(t);
     const double word = radial_[i] - rnd((radial_[i] - radial_[i + 1]) * part, config_.radial_frac_bits, closeness);
     if (mixture_.device(Step::Index)) return word;
@@ -170,7 +210,7 @@ class Frame {
   double read(double dx, double dy, double radius, Closeness& closeness) const {
     const double u = (dx * dx + dy * dy) / (radius * radius);
     compare(u, 1.0, 0, closeness);
-    if (!mixture_.device(Step::Weight)) return u < 1.0 ? footprint(u) : 0.0;
+    if (!mixture_.device(Step::Weight)) return u < 1.0 ? narrow(mixture_, Step::Weight, footprint(u), closeness) : 0.0;
     const int wi = config_.radial_int_bits, wf = config_.radial_frac_bits, g = config_.rlut_guard_bits;
     if (config_.index() == cmodel::IndexKind::Blit2d)
       return u < 1.0 ? std::min(rnd(footprint(u), wf, closeness), largest(wi, wf)) : 0.0;
@@ -190,7 +230,7 @@ class Frame {
     if (!additive_ && !real_factor) {
       f = interpolated(factor_, tau, config_, closeness);
     } else if (!additive_ && tau != 0.0) {
-      f = -std::expm1(-tau) / tau;
+      f = narrow(mixture_, Step::Factor, -std::expm1(-tau) / tau, closeness);
     }
     Values slab{};
     for (std::size_t c = 0; c < 4; ++c) {
@@ -198,11 +238,12 @@ class Frame {
       if (device_slab) {
         slab[c] = c < 3 ? colour_word(config_.rounding_slab, slab[c], closeness)
                         : to_unit(config_.rounding_slab, slab[c], config_.composite_frac_bits, closeness);
-      } else if (additive_) {
-        slab[c] = std::min(1.0, slab[c]);
+      } else {
+        slab[c] = narrow(mixture_, Step::Slab, additive_ ? std::min(1.0, slab[c]) : slab[c], closeness);
       }
     }
-    if (!device_slab && !additive_ && real_factor) slab[3] = -std::expm1(-tau);
+    const bool floats = mixture_.floats(Step::Factor) || mixture_.floats(Step::Slab);
+    if (!device_slab && !additive_ && real_factor && !floats) slab[3] = -std::expm1(-tau);
     return slab;
   }
 
@@ -231,9 +272,10 @@ std::vector<std::array<double, 4>> of_densities(const scene::Scene& scene, const
         if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
         Closeness& doubt = doubts[at(x, y)];
         doubt |= splat.closeness;
-        const double w = frame.weight(dx, dy, splat.radius, doubt);
+        const double w = frame.weight(splat, x, y, doubt);
         for (std::size_t s = 0; s < sheets; ++s) {
-          if (splat.shares[s][3] != 0.0) sums[s][at(x, y)][3] += frame.product(splat.shares[s][3], w, doubt);
+          double& sum = sums[s][at(x, y)][3];
+          if (splat.shares[s][3] != 0.0) sum = frame.sum(sum, frame.product(splat.shares[s][3], w, doubt), doubt);
         }
       }
       for (std::size_t s = 0; s < sheets; ++s) frame.cut_sum(sums[s][at(x, y)]);
@@ -283,10 +325,12 @@ std::vector<std::array<double, 4>> render(const scene::Scene& scene, const cmode
         const double reach = splat.radius + frame.beyond();
         if (std::abs(dx) >= reach || std::abs(dy) >= reach) continue;
         pixel.closeness |= splat.closeness;
-        const double w = frame.weight(dx, dy, splat.radius, pixel.closeness);
+        const double w = frame.weight(splat, x, y, pixel.closeness);
         for (std::size_t s = 0; s < sheets; ++s) {
           for (std::size_t c = 0; c < 4; ++c) {
-            if (splat.shares[s][c] != 0.0) sums[s][c] += frame.product(splat.shares[s][c], w, pixel.closeness);
+            if (splat.shares[s][c] == 0.0) continue;
+            const double product = frame.product(splat.shares[s][c], w, pixel.closeness);
+            sums[s][c] = frame.samples() ? product : frame.sum(sums[s][c], product, pixel.closeness);
           }
         }
         if (frame.samples()) {

@@ -57,6 +57,32 @@ double round_by(int rounding, double value, int bits, Closeness& closeness) {
   return (down ? below : below + 1.0) * power_of_two(-bits);
 }
 
+double to_float(const FloatFormat& format, bool subnormals, double value, Closeness& closeness) {
+  if (value == 0.0 || std::isnan(value)) return value;
+  const int bias = (1 << (format.exponent_bits - 1)) - 1, least = 1 - bias, most = format.infinite ? bias : bias + 1;
+  // The unit in the last place, as the exponent were unbounded above.
+  int exponent = 0;
+  std::frexp(std::abs(value), &exponent);
+  const int last = std::max(exponent - 1, least) - format.fraction_bits;
+  const double steps = std::ldexp(std::abs(value), -last), below = std::floor(steps), rest = steps - below;
+  const double apart = std::abs(rest - 0.5);
+  if (apart != 0.0 && apart < steps * std::ldexp(1.0, -43)) closeness.close = true;
+  const bool up = rest > 0.5 || (rest == 0.5 && std::fmod(below, 2.0) == 1.0);
+  const double size = std::ldexp(up ? below + 1.0 : below, last);
+  // With infinities the largest exponent holds no numbers; else all but its last word.
+  const double greatest =
+      std::ldexp(std::ldexp(2.0, format.fraction_bits) - (format.infinite ? 1.0 : 2.0), most - format.fraction_bits);
+  if (size > greatest) return std::copysign(format.infinite ? HUGE_VAL : greatest, value);
+  if (!subnormals && size < std::ldexp(1.0, least)) return 0.0;
+  return std::copysign(size, value);
+}
+
+double narrow(const Mixture& mixture, Step step, double value, Closeness& closeness, bool as_sum) {
+  if (!mixture.floats(step)) return value;
+  const FloatNumbers& numbers = mixture.numbers();
+  return to_float(as_sum ? numbers.sums : numbers.operands, numbers.subnormals, value, closeness);
+}
+
 double cut(double value, double low, double high) { return std::min(std::max(value, low), high); }
 
 double largest(int int_bits, int frac_bits) { return power_of_two(int_bits) - power_of_two(-frac_bits); }

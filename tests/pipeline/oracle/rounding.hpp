@@ -2,6 +2,7 @@
 // Rounding for the oracle of the mixtures: docs/numerics.md, section 1, for numbers that need not be words.
 #pragma once
 
+#include "analysis/pipeline/step.hpp"
 #include "cmodel/numbers/narrow.hpp"
 
 namespace fastsplat::stages::oracle {
@@ -22,6 +23,11 @@ double rnd(double value, int bits, Closeness& closeness);
 double trn(double value, int bits, Closeness& closeness);
 /// One of section 1's roundings: an int as the configuration keeps it. No range.
 double round_by(int rounding, double value, int bits, Closeness& closeness);
+
+/// The nearest number of a floating-point format, ties to even (docs/floats.md).
+double to_float(const FloatFormat& format, bool subnormals, double value, Closeness& closeness);
+/// The same if `step` is floats, else the value; `as_sum`: in the format of sums.
+double narrow(const Mixture& mixture, Step step, double value, Closeness& closeness, bool as_sum = false);
 
 double cut(double value, double low, double high);
 /// Largest value of U i.f.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "scene/real_splat.hpp"
 #include "scene/splats.hpp"
@@ -98,11 +99,18 @@ class Steps {
     splat.radius = mixture_.device(Step::Radius) ? sets_.of(own, splat.closeness) : own;
     const Values v = emitted(real.material, own / splat.radius, line, voxel.sheet, splat.closeness);
     splat.shares.assign(static_cast<std::size_t>(sheets_.count), Values{});
+    splat.position = voxel.position;
     if (sheets_.sliced) {
+      const double start = narrow(mixture_, Step::Depth, real.depth, splat.closeness) - scene_.kernel.radius();
+      splat.first =
+          static_cast<int>(cut(std::floor((start - sheets_.first) / sheets_.width), 0.0, sheets_.count - 1.0));
+      while (mixture_.floats(Step::Depth) && splat.first > 0 && phi(splat.first, real.depth, splat.closeness) > 0.0)
+        --splat.first;
       slice(real.depth, v, splat);
     } else {
       const double most = largest(config_.colour_int_bits, config_.colour_frac_bits);
-      Values& share = splat.shares[static_cast<std::size_t>(sheets_.of_grid ? real.sheet : 0)];
+      splat.first = sheets_.of_grid ? real.sheet : 0;
+      Values& share = splat.shares[static_cast<std::size_t>(splat.first)];
       for (std::size_t c = 0; c < 4; ++c) share[c] = mixture_.device(Step::Share) ? std::min(v[c], most) : v[c];
     }
     return splat;
@@ -113,6 +121,7 @@ class Steps {
   double place(double x, Closeness& closeness) const {
     const int pf = config_.position_frac_bits, kl = grid_bits(config_);
     const bool snap_rounds = kl < pf && config_.rounding_snap == static_cast<int>(cmodel::Rounding::RND);
+    if (!mixture_.tile_centres()) x = narrow(mixture_, Step::Position, x, closeness);
     if (mixture_.device(Step::Position)) x = snap_rounds ? trn(x, pf, closeness) : rnd(x, pf, closeness);
     if (mixture_.device(Step::Snap)) x = round_by(config_.rounding_snap, x, kl, closeness);
     return x;
@@ -123,6 +132,7 @@ class Steps {
     const int cf = config_.colour_frac_bits;
     Values v{};
     for (std::size_t c = 0; c < 4; ++c) v[c] = e[c] * f;
+    for (double& value : v) value = narrow(mixture_, Step::Emission, value, closeness);
     if (!mixture_.device(Step::Emission)) return v;
     const double most = std::ldexp(1.0, cf + 4) - 1.0;
     if (!carries(scene_, config_)) {
@@ -161,12 +171,13 @@ class Steps {
     if (s == 0) return 0.0;  // N-8-66
     if (s == sheets_.count) return 1.0;
     const int zf = config_.slice_phase_bits;
-    double z = depth, boundary = sheets_.first + s * sheets_.width;
+    const auto depth_of = [&](double value) { return narrow(mixture_, Step::Depth, value, closeness); };
+    double z = depth_of(depth), boundary = depth_of(sheets_.first + s * sheets_.width);
     if (mixture_.device(Step::Depth)) {
       z = rnd(depth - sheets_.first, zf, closeness);  // N-8-65
       boundary = rnd(s * sheets_.width, zf, closeness);
     }
-    const double share = kernel_share(boundary - z);
+    const double share = narrow(mixture_, Step::Phi, kernel_share(depth_of(boundary - z)), closeness);
     return mixture_.device(Step::Phi) ? rnd(share, config_.slice_frac_bits, closeness) : share;
   }
 
@@ -180,7 +191,8 @@ class Steps {
           const double h = rnd(v[c] * far, cf, splat.closeness) - rnd(v[c] * near, cf, splat.closeness);
           share[c] = std::min(h, largest(config_.colour_int_bits, cf));
         } else {
-          share[c] = v[c] * (far - near);
+          const double part = narrow(mixture_, Step::Share, far - near, splat.closeness);
+          share[c] = narrow(mixture_, Step::Share, v[c] * part, splat.closeness);
         }
       }
     }
@@ -215,6 +227,11 @@ std::vector<Splat> splats_of(const scene::Scene& scene, const cmodel::Config& co
   traversal.visit(traversal.all(), [&](std::span<const scene::Splat> row, std::span<const std::uint32_t> lines) {
     for (std::size_t i = 0; i < row.size(); ++i) all.push_back(steps(row[i], lines[i]));
   });
+  const auto place = [&](const Splat& splat) {
+    const glm::vec3 at = densities ? splat.position : glm::vec3(0.0F);
+    return std::tuple(splat.first, at.z, at.y, at.x);
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const Splat& a, const Splat& b) { return place(a) < place(b); });
   return all;
 }
 

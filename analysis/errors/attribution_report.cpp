@@ -125,14 +125,15 @@ Json to_json(const Attribution& a, const std::optional<TriedSuggestion>& tried) 
   for (const StepError& s : a.steps) {
     Json steps = Json::array();
     for (const stages::Step step : s.set.steps) steps.push_back(stages::facts(step).name);
-    json["steps"].push_back({{"name", s.set.name},
-                             {"steps", steps},
-                             {"by", s.set.by},
-                             {"meaning", stages::facts(s.set.steps.back()).meaning},
-                             {"keys", stages::facts(s.set.steps.back()).keys},
-                             {"share", s.share},
-                             {"increment", amount_json(s.increment)},
-                             {"pixels_ruled", s.pixels_ruled}});
+    json["steps"].push_back(
+        {{"name", s.set.name},
+         {"steps", steps},
+         {"by", s.set.by},
+         {"meaning", a.floats ? "as " + a.floats->text() : std::string(stages::facts(s.set.steps.back()).meaning)},
+         {"keys", a.floats ? "" : stages::facts(s.set.steps.back()).keys},
+         {"share", s.share},
+         {"increment", amount_json(s.increment)},
+         {"pixels_ruled", s.pixels_ruled}});
     if (a.quick) continue;
     json["steps"].back()["alone_share"] = s.only_share;
     json["steps"].back()["alone"] = amount_json(s.only);

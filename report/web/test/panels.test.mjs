@@ -21,6 +21,7 @@ before(async () => {
   result("errors", ["errors", ...scene]);
   fastsplat(["gaussians", "convert", "shells:300", "shells.spz", "--quiet"]);
   result("file", ["errors", "file", "shells:300", "shells.spz", "--size", "48"]);
+  result("floats", ["errors", ...scene, "--formats", "fp16,fp32", "--quick"]);
   result("bound", ["errors", "bound", ...scene]);
   result("ranges", ["errors", "ranges", ...scene]);
   result("propose", ["errors", "propose", "--target", "psnr>=45", "--volume", "shells:12", "--size", "24"]);
@@ -48,7 +49,7 @@ before(async () => {
   save("closure.json", closure);
   save("plan.json", sample_plan(240));
   save("long.json", sample_plan(2000));
-  const names = ["compare", "strict", "same", "errors", "file", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "closure", "book", "golden", "cmodel", "quick", "culling", "post-compare", "post-golden", "post-cmodel", "gaussians", "record", "replay", "rough"];
+  const names = ["compare", "strict", "same", "errors", "floats", "file", "bound", "ranges", "propose", "cycles", "devices", "family", "merged", "plan", "verify", "mismatch", "closure", "book", "golden", "cmodel", "quick", "culling", "post-compare", "post-golden", "post-cmodel", "gaussians", "record", "replay", "rough"];
   all = report("all", names.map((name) => `${name}.json`));
   await start();
 });

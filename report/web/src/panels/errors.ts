@@ -24,7 +24,7 @@ function steps(root: HTMLElement, result: Result): void {
         name: step.name,
         value: 100 * step.share,
         shown: `${number_text(100 * step.share, { digits: 1, sign: true })} %`,
-        tip: `${step.name} (${step.by}): ${step.meaning}; ${number_text(100 * step.share, { digits: 2 })} %, ${step.keys}`,
+        tip: `${step.name} (${step.by}): ${step.meaning}; ${number_text(100 * step.share, { digits: 2 })} %${step.keys && `, ${step.keys}`}`,
         colour: step.by === "driver" ? "c0" : step.by === "device" ? "c1" : "c4",
       })),
       {
@@ -66,7 +66,7 @@ export const errors: Panel = {
   name: "errors",
   verbs: ["errors"],
   title: "Error by step",
-  about: "Which step of the device's arithmetic causes how much of the error against golden. LSB8: a step of an 8-bit pixel, 1/255.",
+  about: "Which step of the arithmetic causes how much of the error against golden. LSB8: a step of an 8-bit pixel, 1/255.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const place = (row: Result): number => result.steps.indexOf(row);
@@ -85,7 +85,7 @@ export const errors: Panel = {
             ".",
           )
         : lead(null, "No step errs."),
-      note(made_of(result)),
+      note(made_of(result), result.floats && `; floats: ${result.floats.operands}, sums ${result.floats.sums}, centres in the ${result.floats.centres}`),
       tiles(
         ["Driver's part", show(["driver_share"], { scale: 100, digits: 1, unit: "%" })],
         ["Device's part", show(["device_share"], { scale: 100, digits: 1, unit: "%" })],
@@ -116,7 +116,8 @@ export const errors: Panel = {
     const parts = grid(root);
     const chain = cell(parts);
     steps(chain, result);
-    chain.append(legend([{ name: "driver", colour: "c0" }, { name: "device", colour: "c1" }, { name: "sum", colour: "c7" }]));
+    const by = result.floats ? [["float", "c4"]] : [["driver", "c0"], ["device", "c1"]];
+    chain.append(legend([...by, ["sum", "c7"]].map(([name, colour]) => ({ name, colour }))));
     const pixels = cell(parts);
     for (const entry of result.pixels ?? []) pixel(pixels, entry);
     const alone = result.steps.some((step: Result) => typeof step.alone_share === "number");

@@ -168,7 +168,10 @@ TEST(Mixtures, OfFloatsAtRandomTheChainIsItsPage) {
   std::uint64_t sampled = 0, densities = 0, overflowed = 0;
   while (sides.mixtures < 200) {
     const bool dense = random.once_in(4);
-    const cmodel::Config config = dense ? random_density_config(random) : random_config(random);
+    using enum cmodel::IndexKind;
+    constexpr std::array kKinds{Linear, Squared, SquaredElliptic, Blit2d, Rlut, Separable};
+    const cmodel::IndexKind kind = kKinds[static_cast<std::size_t>(random.between(0, kKinds.size() - 1))];
+    const cmodel::Config config = dense ? random_density_config(random) : random_config(random, kind);
     scene::SceneDescription description = dense ? random_density_scene(random) : random_scene(random);
     if (!dense && config.composite_every_sample != 0 && random.once_in(2)) sample(description);
     const scene::Scene scene = scene::build_scene(description);

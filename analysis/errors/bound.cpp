@@ -17,11 +17,12 @@ using stages::Step;
 /// Allowance for the rounding of doubles.
 constexpr double kSlack = 1e-12;
 
-/// Limit on the size of a band's cells.
+/// Limit on the size of a band's layers.
 constexpr double kBandBytes = 48e6;
-int rows_of_band(int sheets, int width) {
+/// `layers`: of a row of the image.
+int rows_of_band(double layers) {
   return static_cast<int>(
-      std::clamp(kBandBytes / (static_cast<double>(sizeof(SheetCell)) * sheets * width), 1.0, 16.0));
+      std::clamp(kBandBytes / (static_cast<double>(sizeof(Layer)) * std::max(layers, 1.0)), 1.0, 16.0));
 }
 
 }  // namespace
@@ -58,64 +59,68 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
 }
 
 void check_bounded(const stages::Chain& chain) {
-  // Only circles in sheets of colours are covered by the proof.
-  const scene::Methods methods = driver::offers(chain.config()).methods & ~scene::only(scene::Method::Westover);
-  scene::check_capability(chain.scene(), {"error bound", methods, 0u});
-  if (chain.config().colour_int_bits > 0) {
-    throw_usage({.where = "colour.int_bits",
-                 .what = "no error bound is proved of colours above 1",
-                 .expected = "0",
-                 .got = std::to_string(chain.config().colour_int_bits),
-                 .fix = "add --set colour.int_bits=0"});
-  }
+  // Densities have neighbours, which the proof does not have.
+  scene::Offers offers = driver::offers(chain.config());
+  offers.engine = "error bound";
+  offers.features &= static_cast<unsigned>(scene::Feature::Footprints);
+  offers.densities_fix = offers.details_fix = offers.patterns_fix = nullptr;
+  if (chain.gaussians() == nullptr) scene::check_capability(chain.scene(), offers);
 }
 
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
             const stages::Mixture& device, int threads) {
   check_bounded(chain);
   const scene::Scene& scene = chain.scene();
-  const Roundings roundings(scene, chain.config(), chain.steps(), mixture, device);
-  const auto splats = chain.steps().staged(chain.list(), mixture, false, threads).splats;
+  const Roundings roundings(chain, mixture, device);
+  const KnownSplats splats(chain, mixture, roundings, threads);
+  const std::size_t count = splats.known.splats.size();
   const int width = real.width, height = real.height;
-  const double more = roundings.place + [&] {
-    double most = 0.0;  // most that a radius set exceeds the splat's own radius
-    if (roundings.radius) {
-      const auto& sets = chain.steps().sets();
-      for (const auto& splat : splats) most = std::max(most, sets.radius(sets.nearest(splat.radius)) - splat.radius);
-    }
-    return most;
-  }();
-  const int lead = roundings.depth > 0.0 && chain.steps().sliced() ? 1 : 0;
-  const driver::TileGrid bands =
-      stages::band_grid(chain.config(), width, height, rows_of_band(chain.steps().sheets(), width));
+  std::vector<driver::Extent> extents(count);
+  std::vector<int> first(count);
+  WeightBound weights(chain, mixture, roundings, splats);
+  const SliceBound slices(chain, mixture, roundings);
+  double touched = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    weights.begin(i);
+    const driver::Extent& box = extents[i] = weights.extent();
+    first[i] = slices.first(splats.known.splats[i], splats.known.shape(i));
+    const auto inside = [](int from, int to, int end) { return std::max(0, std::min(to, end) - std::max(from, 0)); };
+    touched += static_cast<double>(inside(box.x0, box.x1, width)) * inside(box.y0, box.y1, height);
+  }
+  const bool samples = driver::every_sample(scene.description);
+  const int sheets = samples ? 1 : chain.steps().sheets();
+  const driver::TileGrid bands = stages::band_grid(
+      chain.config(), width, height, rows_of_band(samples ? touched / height : static_cast<double>(sheets) * width));
   const stages::BandBins bins(
-      bands, chain.steps().sheets(), splats.size(), threads,
-      [&](std::size_t i) { return stages::extent_of(splats[i], nullptr, more); },
-      [&](std::size_t i) { return std::max(0, splats[i].first - lead); });
+      bands, sheets, count, threads, [&](std::size_t i) { return extents[i]; },
+      [&](std::size_t i) { return first[i]; });
 
   Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};
-  std::vector<std::array<double, kTermCount>> terms(static_cast<std::size_t>(bands.count()));
+  std::vector<Terms> terms(static_cast<std::size_t>(bands.count()));
   parallel_for(bins.work(), threads, [&](std::size_t number) {
     const int band = static_cast<int>(number);
     const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
     BoundBand sweep(chain, mixture, roundings, splats, rows, width);
     sweep.run(bins, band);
-    std::ranges::copy(sweep.greatest(), &out.greatest.pixels[static_cast<std::size_t>(rows.first) * width]);
+    Sums* to = &out.greatest.pixels[static_cast<std::size_t>(rows.first) * width];
+    for (const PixelBound& pixel : sweep.pixels()) *to++ = pixel.greatest;
     terms[number] = sweep.terms();
   });
 
-  // Adds the known part, saturation of an X-ray's sums, and rounding and saturation of output words.
+  // Adds the known part, saturation of an X-ray's sums or of composited colours, and rounding and saturation of output
+  // words.
   const stages::Picture there = chain(mixture, threads);
   const double values = 4.0 * static_cast<double>(real.pixels.size());
-  for (const auto& band : terms) {
+  for (const Terms& band : terms) {
     for (std::size_t t = 0; t < kTermCount; ++t) out.mean[t] += band[t] / values;
   }
-  const bool xray = scene.description.method == scene::Method::XRay;
+  const double largest =
+      scene.description.method == scene::Method::XRay ? roundings.largest_sum : roundings.largest_light;
   for (std::size_t i = 0; i < real.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       double& most = out.greatest.pixels[i][c];
       const double exact = std::abs(there.pixels[i][c] - real.pixels[i][c]);
-      if (xray) most += std::max(0.0, there.pixels[i][c] + most - roundings.largest_sum);
+      most += std::max(0.0, there.pixels[i][c] + most - largest);
       most += roundings.pixel + std::max(0.0, there.pixels[i][c] + most + roundings.pixel - roundings.largest_pixel);
       most += exact + kSlack;
       out.mean[static_cast<std::size_t>(Term::Known)] += exact / values;

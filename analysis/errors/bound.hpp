@@ -52,7 +52,7 @@ struct Bound {
   Term dominant() const;
 };
 
-/// Throws UserError (Usage) for frames without a proof: with ellipses, every sample composited, or densities.
+/// Throws UserError (Usage) for frames without a proof: densities, patterns and textured splats.
 void check_bounded(const stages::Chain& chain);
 
 /// `threads` (0: all cores) never change the result.

@@ -40,8 +40,9 @@ BoundReport bounds(const stages::Chain& chain, int threads, const Progress& prog
   check_bounded(chain);
   BoundReport out{chain(stages::Mixture{}, threads), chain(stages::Mixture::all_device(), threads), {}};
   for (const Known known : kLevels) {
-    // The effect of an unknown position on a weight is derived for the RLUT only.
-    if (known == Known::Scene && chain.config().index() != cmodel::IndexKind::Rlut) continue;
+    // The effect of an unknown position on a circle's weight is derived for the RLUT only.
+    if (known == Known::Scene && chain.gaussians() == nullptr && chain.config().index() != cmodel::IndexKind::Rlut)
+      continue;
     BoundResult level{known, bound(chain, out.real, known, threads), {}};
     level.check = check(level.bound, out.real, out.device);
     out.levels.push_back(std::move(level));

@@ -7,6 +7,7 @@
 
 #include "driver/splats/rounding_carry.hpp"
 #include "driver/tables/tables.hpp"
+#include "driver/tiles/compile.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -68,40 +69,55 @@ double factor_of(const cmodel::Config& c) {
 
 }  // namespace
 
-Roundings::Roundings(const scene::Scene& scene, const cmodel::Config& c, const stages::SplatSteps& steps,
-                     const stages::Mixture& known, const stages::Mixture& device) {
+Roundings::Roundings(const stages::Chain& chain, const stages::Mixture& known, const stages::Mixture& device) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const scene::Scene& scene = chain.scene();
+  const cmodel::Config& c = chain.config();
+  const bool gaussians = chain.gaussians() != nullptr, samples = driver::every_sample(scene.description);
   const auto open = [&](Step step) { return device.device(step) && !known.device(step); };
   const auto greatest = [](const cmodel::Format& format) {
     return std::ldexp(static_cast<double>(format.max), -format.frac_bits);
   };
   if (open(Step::Snap)) place = place_of(c);
+  if (open(Step::Position)) ellipse_place = std::ldexp(0.5, -c.position_frac_bits);
   radius = open(Step::Radius);
   // Two words, each half a guard step off; an entry stands for the middle of its step.
-  if (open(Step::Distance)) lookup += std::ldexp(1.0, -c.rlut_guard_bits);
-  if (open(Step::Index)) lookup += c.interpolates() ? std::ldexp(1.0, -c.rlut_guard_bits) : 0.5;
+  if (open(Step::Distance)) {
+    distance = std::ldexp(1.0, -c.rlut_guard_bits);
+    if (chain.shaped()) coefficient = std::ldexp(0.5, -c.rlut_guard_bits - c.ellipse_format().frac_bits);
+  }
+  if (open(Step::Index)) index = c.interpolates() ? std::ldexp(1.0, -c.rlut_guard_bits) : 0.5;
   if (open(Step::Index) && c.interpolates()) weight += chord_of(c, scene.kernel);
   if (open(Step::Weight)) weight += weight_of(c, scene.kernel);
-  largest_whole = largest_share = largest_sum = largest_pixel = kEndless;
+  largest_whole = largest_share = largest_sum = largest_slab = largest_light = largest_pixel = kEndless;
   if (open(Step::Emission)) {
-    emission = emission_of(c, scene.kernel, steps.carries());
-    largest_whole = 16.0 - std::ldexp(1.0, -c.colour_frac_bits);  // U 4.cf
+    carries = chain.carries();
+    emission = emission_of(c, scene.kernel, carries);
+    // Words of Gaussians are those of records; of a volume's splats U 4.cf.
+    largest_whole = gaussians ? greatest(c.colour_format()) : 16.0 - std::ldexp(1.0, -c.colour_frac_bits);
   }
   if (open(Step::Depth)) depth = std::ldexp(1.0, -c.slice_phase_bits);
   if (open(Step::Phi)) phi = std::ldexp(0.5, -c.slice_frac_bits);
   shares_known = known.device(Step::Share);
-  if (open(Step::Share)) {
+  if (open(Step::Share) && !gaussians) {
     share = std::ldexp(0.5, -c.colour_frac_bits);
     last_share = device.device(Step::Emission) ? 0.0 : share;
     largest_share = greatest(c.colour_format());
   }
   if (open(Step::Product)) product = step_of(c, cmodel::Site::Product);
-  if (open(Step::Sheet)) largest_sum = greatest(c.sheet_format());
+  if (open(samples ? Step::Product : Step::Sheet)) largest_sum = greatest(c.sheet_format());
   const bool additive = scene.description.slab_opacity == scene::SlabOpacity::Additive;
   if (open(Step::Factor) && !additive) factor = factor_of(c);
-  if (open(Step::Slab)) slab = step_of(c, additive ? cmodel::Site::AddedColour : cmodel::Site::SlabColour);
-  if (open(Step::Composite)) composite = step_of(c, cmodel::Site::Light);
-  if (open(Step::Freeze)) freeze = std::ldexp(c.freeze_below, -c.composite_frac_bits);
+  if (open(Step::Slab)) {
+    slab = step_of(c, additive ? cmodel::Site::AddedColour : cmodel::Site::SlabColour);
+    largest_slab = greatest(c.slab_format());
+  }
+  if (open(Step::Composite)) {
+    composite = step_of(c, cmodel::Site::Light);
+    largest_light = greatest(c.composited_format());
+  }
+  freeze = device.device(Step::Freeze) ? std::ldexp(c.freeze_below, -c.composite_frac_bits)
+                                       : scene.description.culling.freeze;
   if (open(Step::Pixel)) {
     const bool xray = scene.description.method == scene::Method::XRay;
     pixel = step_of(c, xray ? cmodel::Site::PixelSum : cmodel::Site::PixelOut);

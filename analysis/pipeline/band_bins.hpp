@@ -23,9 +23,9 @@ inline driver::TileGrid band_grid(const cmodel::Config& config, int width, int h
 struct Reach {
   double x = 0.0, y = 0.0;
 };
-/// `more`: for circles. An ellipse gets one pixel: rounding may move pixels beyond its edge inside.
+/// `more`: for circles. Rounding may move pixels beyond an ellipse's edge inside.
 inline Reach reach_of(const StagedSplat& splat, const StagedShape* shape, double more) {
-  if (shape != nullptr && shape->own) return {shape->reach_x + 1.0, shape->reach_y + 1.0};
+  if (shape != nullptr && shape->own) return {shape->reach_x + shape->beyond, shape->reach_y + shape->beyond};
   return {splat.radius + more, splat.radius + more};
 }
 

@@ -24,11 +24,25 @@ cmodel::Config without_end(cmodel::Config config) {
   return config;
 }
 
+/// A pixel for the centre's word, and as far as q is off at the record's far corner (docs/numerics.md, N-4.6-7), but no
+/// farther than its windows.
+double beyond_edge(const cmodel::Config& config, double reach_x, double reach_y) {
+  const double longest = static_cast<double>(cmodel::kEllipseWindows) * config.lanes;
+  const auto pixels = [&](double reach) { return std::min(2.0 * reach + config.lanes, longest); };
+  const double i = pixels(reach_x), j = pixels(reach_y);
+  const double off =
+      std::ldexp(1.0 + i + i * i + j + j * j + i * j, -config.rlut_guard_bits - config.ellipse_format().frac_bits - 1);
+  return 1.0 + std::min(std::max(reach_x, reach_y) * (std::sqrt(1.0 + off / config.radial_entries) - 1.0),
+                        static_cast<double>(config.lanes));
+}
+
 }  // namespace
 
 void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footprint, const cmodel::EllipseShape& words,
                  const Mixture& mixture, StagedShape& shape) {
   shape.words = words;
+  const driver::EllipseReach drawn = driver::reach(config, words);
+  shape.beyond = beyond_edge(config, drawn.x, drawn.y);
   if (!mixture.device(Step::Radius)) {
     const double entries = config.radial_entries, determinant = footprint.determinant();
     const RoundToFloat& narrow = mixture.rounding(Step::Radius);
@@ -46,9 +60,8 @@ void set_ellipse(const cmodel::Config& config, const scene::ScreenShape& footpri
   shape.b = std::ldexp(words.b, steps);
   shape.c = std::ldexp(words.c, steps);
   shape.unit = {shape.a / config.radial_entries, shape.b / config.radial_entries, shape.c / config.radial_entries};
-  const driver::EllipseReach reach = driver::reach(config, words);
-  shape.reach_x = reach.x;
-  shape.reach_y = reach.y;
+  shape.reach_x = drawn.x;
+  shape.reach_y = drawn.y;
 }
 
 glm::ivec3 voxel_of(const volume::Volume& volume, const scene::Splat& splat) {

@@ -47,6 +47,7 @@ struct StagedShape {
   double a = 0.0, b = 0.0, c = 0.0;     ///< q = a dx^2 + b dx dy + c dy^2, radial table entries, pixels
   std::array<double, 3> unit{};         ///< the same of u = q / N, 1 at the edge
   double reach_x = 0.0, reach_y = 0.0;  ///< half sides of the box where q < N, pixels
+  double beyond = 0.0;                  ///< how far beyond it rounded coefficients may move pixels inside
   cmodel::EllipseShape words;           ///< the device's words, on either side of step radius
   std::int32_t word_x = 0, word_y = 0;  ///< likewise the centre, pf fraction bits
   /// Of a 3-D Gaussian: its windows are those of each tile. Else null.

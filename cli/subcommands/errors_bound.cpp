@@ -5,22 +5,19 @@
 #include "analysis/compare.hpp"
 #include "analysis/errors/attribution_report.hpp"
 #include "analysis/errors/bound_report.hpp"
-#include "cli/config_flags.hpp"
 #include "cli/errors_output.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
-#include "cli/scene_flags.hpp"
+#include "cli/staged_scene.hpp"
 #include "cli/subcommands/subcommands.hpp"
-#include "cli/volume_json.hpp"
 
 namespace fastsplat::cli {
 namespace {
 
 struct ErrorsBoundArguments {
   Common common;
-  SceneFlags scene;
-  ConfigFlags config;
+  StagedFlags of;
   int lsb_bits = 8;
   std::string maps;  ///< prefix, empty for none
 };
@@ -45,7 +42,7 @@ std::vector<std::string> map_names(const std::string& prefix, const char* ending
   return names;
 }
 
-void write_maps(const ErrorsBoundArguments& arguments, const scene::Scene& scene, const ErrorsBoundResult& result) {
+void write_maps(const ErrorsBoundArguments& arguments, const StagedScene& scene, const ErrorsBoundResult& result) {
   const Image real = analysis::to_image(result.report.real);
   for (const analysis::BoundResult& level : result.report.levels) {
     const std::string name = arguments.maps + "." + analysis::to_string(level.known);
@@ -53,26 +50,25 @@ void write_maps(const ErrorsBoundArguments& arguments, const scene::Scene& scene
     Image above = real;
     for (std::size_t v = 0; v < above.data.size(); ++v) above.data[v] += most.data[v];
     write_map(name + ".png", analysis::heat_map(real, above, {.lsb_bits = arguments.lsb_bits}));
-    images::write_image(name + ".exr", most, values_metadata("bound", scene, result.config));
+    images::write_image(name + ".exr", most, scene.metadata("bound"));
   }
 }
 
 ExitCode run(const ErrorsBoundArguments& arguments) {
   const Output output(arguments.common);
-  const cmodel::Config config = load(arguments.config);
-  describe(arguments.scene);
+  StagedScene scene(arguments.of);
+  const cmodel::Config& config = scene.config();
   check_outputs({.images = map_names(arguments.maps, ".exr"),
                  .maps = map_names(arguments.maps, ".png"),
                  .raws = {},
                  .others = {arguments.common.json},
-                 .inputs = joined(inputs_of(arguments.scene), inputs_of_config(arguments.config.config.value_or("")))});
-  const scene::Scene scene = build(arguments.scene);
-  output.remark(remarks(scene));
-  ErrorsBoundResult result{.scene = summary(scene), .config = config, .report = {}};
+                 .inputs = scene.inputs()});
+  scene.read(output);
+  ErrorsBoundResult result{.scene = scene.summary(), .config = config, .report = {}};
   {
-    const stages::Chain chain(scene, config);
+    const auto chain = scene.chain(arguments.common.threads, output);
     ProgressBar bar("bound", watching(arguments.common));
-    result.report = analysis::bounds(chain, arguments.common.threads, bar.callback());
+    result.report = analysis::bounds(*chain, arguments.common.threads, bar.callback());
   }
   if (!arguments.maps.empty()) write_maps(arguments, scene, result);
   output.line(errors_heading(result.scene, config) + analysis::to_text(result.report, arguments.lsb_bits));
@@ -82,9 +78,7 @@ ExitCode run(const ErrorsBoundArguments& arguments) {
 }
 
 void declare(Options& options, ErrorsBoundArguments& to) {
-  declare(options, to.scene);
-  options.group("Device");
-  declare(options, to.config, "hardware configuration, a name or a TOML file");
+  declare(options, to.of);
   options.group("Output");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.word("--maps", to.maps, "PREFIX",
@@ -94,6 +88,7 @@ void declare(Options& options, ErrorsBoundArguments& to) {
                   "a proved worst case for every pixel, as maps");
   options.example("fastsplat errors bound --volume shells:16 --size 32 --config tiny --json bound.json",
                   "as JSON; exit 1 if it does not hold");
+  options.example("fastsplat errors bound --gaussians shells:500 --size 96", "the same of 3-D Gaussians");
 }
 
 }  // namespace

@@ -123,6 +123,19 @@ TEST(ErrorsBound, OfOtherKindsOfIndexNeedsTheirGeometry) {
   EXPECT_EQ(Json::parse(result.out).at("levels").size(), 2u);
 }
 
+TEST(ErrorsBound, HoldsForEverySampleEllipsesAndGaussians) {
+  for (const Words& words : {with({"--method", "westover", "--set", "composite.every_sample=1"}, kSmall),
+                             with({"--config", "ellipse", "--antialias", "on", "--zoom", "0.3"}, kSmall),
+                             Words{"--gaussians", "shells:60", "--size", "24"},
+                             with({"--set", "colour.int_bits=1", "--set", "colour.frac_bits=15"}, kSmall)}) {
+    const auto result = fastsplat(with({"errors", "bound", "--json", "-", "--quiet"}, words));
+    expect_success(result);
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json.at("levels").size(), 3u);
+    EXPECT_TRUE(json.at("holds").get<bool>());
+  }
+}
+
 TEST(Errors, BadInputIsOneLine) {
   const TempFolder folder;
   const auto refused = [](const Words& words, int code, const std::string& part) {
@@ -132,8 +145,7 @@ TEST(Errors, BadInputIsOneLine) {
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   };
   refused(with({"errors", "--method", "westover"}, kSmall), 2, "composite.every_sample");
-  refused(with({"errors", "bound", "--method", "westover", "--set", "composite.every_sample=1"}, kSmall), 2,
-          "westover");
+  refused(with({"errors", "bound", "--method", "westover"}, kSmall), 2, "composite.every_sample");
   refused(with({"errors"}, kDensities), 2, "classify.segment_bits");
   refused(with({"errors", "bound"}, with(kDensities, kClassifies)), 2, "error bound");
   refused(with({"errors", "--texture", "marble", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)), 2,

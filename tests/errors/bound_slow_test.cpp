@@ -3,50 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/errors/bound.hpp"
 #include "base/error.hpp"
 #include "tests/cmodel/configs_helper.hpp"
+#include "tests/errors/bound_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
 
 namespace fastsplat::analysis {
 namespace {
 
-using stages::Chain, stages::Mixture, stages::Picture, stages::Step;
-
-struct Totals {
-  std::uint64_t frames = 0, values = 0, over = 0;
-  double worst = 0.0;
-  void add(const BoundCheck& one) {
-    ++frames;
-    values += one.values;
-    over += one.over;
-    worst = std::max(worst, one.worst);
-  }
-  void print(const char* what) const {
-    std::printf("[figure] %s: %llu bounds, %llu values, %llu over, worst measured / bound %.4f\n", what,
-                static_cast<unsigned long long>(frames), static_cast<unsigned long long>(values),
-                static_cast<unsigned long long>(over), worst);
-  }
-};
-
-void hold(const scene::Scene& scene, const cmodel::Config& config, Totals& totals) {
-  const Chain chain(scene, config);
-  const Picture real = chain(Mixture{}), device = chain(Mixture::all_device());
-  for (const Known known : kLevels) {
-    const BoundCheck one = check(bound(chain, real, known, 2), real, device);
-    totals.add(one);
-    EXPECT_EQ(one.over, 0u) << to_string(known) << " " << stages::test::text_of(config) << "\n"
-                            << scene::to_toml(scene.description);
-  }
-}
+using stages::Chain, stages::Mixture, stages::Step, test::BoundTotals, test::hold;
 
 TEST(Bound, HoldsOnEveryPixelOfNamedConfigurations) {
-  Totals totals;
+  BoundTotals totals;
   for (const std::string& name : test::config_names()) {
-    for (const auto& description : stages::test::small_scenes())
-      hold(scene::build_scene(description), test::named_config(name), totals);
+    for (const auto& description : stages::test::small_scenes()) {
+      const scene::Scene scene = scene::build_scene(description);
+      const cmodel::Config config = test::named_config(name);
+      hold(Chain(scene, config), totals);
+    }
   }
   totals.print("named configurations");
   EXPECT_GT(totals.worst, 0.5);  // a worst case that is not far above
@@ -54,13 +30,12 @@ TEST(Bound, HoldsOnEveryPixelOfNamedConfigurations) {
 
 TEST(Bound, HoldsOnEveryPixelAtRandom) {
   test::Random random(test::seed_or(3100));
-  Totals totals;
+  BoundTotals totals;
   while (totals.frames < 300) {
-    cmodel::Config config = test::random_config(random);
-    config.colour_int_bits = 0;  // of colours above 1 none is proved
+    const cmodel::Config config = test::random_config(random);
     const scene::Scene scene = scene::build_scene(stages::test::random_scene(random));
     try {
-      hold(scene, config, totals);
+      hold(Chain(scene, config), totals);
     } catch (const UserError&) {
       continue;  // the configuration cannot hold the scene
     }
@@ -71,14 +46,14 @@ TEST(Bound, HoldsOnEveryPixelAtRandom) {
 /// Opacities at which exp(-tau) is 0 in doubles and exp(tau) is infinite, and words saturate.
 TEST(Bound, HoldsWhereNothingIsSeenBehindASheet) {
   test::Random random(test::seed_or(3102));
-  Totals totals;
+  BoundTotals totals;
   while (totals.frames < 300) {
-    cmodel::Config config = test::random_config(random);
-    config.colour_int_bits = 0;  // of colours above 1 none is proved
+    const cmodel::Config config = test::random_config(random);
     scene::SceneDescription description = stages::test::random_scene(random);
     description.opacity_scale = std::exp2(static_cast<double>(random.between(8, 16)));
     try {
-      hold(scene::build_scene(description), config, totals);
+      const scene::Scene scene = scene::build_scene(description);
+      hold(Chain(scene, config), totals);
     } catch (const UserError&) {
       continue;  // the configuration cannot hold the scene
     }
@@ -87,20 +62,14 @@ TEST(Bound, HoldsWhereNothingIsSeenBehindASheet) {
 }
 
 TEST(Bound, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
-  Totals totals;
+  BoundTotals totals;
   for (const int kind : {0, 1, 2, 5}) {
     for (const char* name : {"base", "compact", "tiny"}) {
       cmodel::Config config = test::named_config(name);
       config.index_kind = kind;
       for (const auto& description : stages::test::small_scenes()) {
         const scene::Scene scene = scene::build_scene(description);
-        const Chain chain(scene, config);
-        const Picture real = chain(Mixture{}), device = chain(Mixture::all_device());
-        for (const Known known : {Known::Geometry, Known::Words}) {
-          const BoundCheck one = check(bound(chain, real, known, 2), real, device);
-          totals.add(one);
-          EXPECT_EQ(one.over, 0u) << kind << " " << name;
-        }
+        hold(Chain(scene, config), totals, Known::Geometry);
       }
     }
   }
@@ -128,7 +97,7 @@ TEST(Bound, HoldsForEachStepAlone) {
   std::vector<scene::SceneDescription> scenes = stages::test::small_scenes();
   while (scenes.size() < 12) scenes.push_back(stages::test::random_scene(random));
   for (const auto& steps : alone) {
-    Totals totals;
+    BoundTotals totals;
     std::vector<cmodel::Config> configs;
     for (const char* name : {"base", "compact", "tiny", "year2000"}) configs.push_back(test::named_config(name));
     for (const auto snap : {cmodel::Rounding::RND, cmodel::Rounding::TRN, cmodel::Rounding::RND_CONV}) {
@@ -144,12 +113,7 @@ TEST(Bound, HoldsForEachStepAlone) {
         try {
           const scene::Scene scene = scene::build_scene(description);
           const Chain chain(scene, config);
-          const Mixture device = Mixture{}.with(steps);
-          const Picture real = chain(Mixture{});
-          const BoundCheck one = check(bound(chain, real, Mixture{}, device, 2), real, chain(device));
-          totals.add(one);
-          EXPECT_EQ(one.over, 0u) << stages::facts(steps.front()).name << " in " << config.name << "\n"
-                                  << scene::to_toml(description);
+          hold(chain, Mixture{}.with(steps), totals);
         } catch (const UserError&) {
           continue;
         }

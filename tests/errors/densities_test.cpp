@@ -127,17 +127,5 @@ TEST(DensityErrors, NoBoundIsProvedOfThem) {
   }
 }
 
-// Nor of colours above 1.
-TEST(BrightErrors, NoBoundIsProvedOfThem) {
-  scene::SceneDescription description;
-  description.volume = "shells:16";
-  description.width = description.height = 24;
-  cmodel::Config config = test::named_config("base");
-  const scene::Scene scene = scene::build_scene(description);
-  EXPECT_NO_THROW(check_bounded(Chain(scene, config)));
-  config.colour_int_bits = 1, config.colour_frac_bits = 15;
-  EXPECT_THROW(check_bounded(Chain(scene, config)), UserError);
-}
-
 }  // namespace
 }  // namespace fastsplat::analysis

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+// The proved worst case where every sample is composited, of ellipses, of 3-D Gaussians and of colours above 1.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "analysis/errors/bound.hpp"
+#include "base/error.hpp"
+#include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/cmodel/configs_helper.hpp"
+#include "tests/errors/bound_helper.hpp"
+#include "tests/pipeline/mixtures_helper.hpp"
+
+namespace fastsplat::analysis {
+namespace {
+
+using cmodel::IndexKind, stages::Chain, stages::Mixture, stages::Step, test::BoundTotals, test::hold;
+
+constexpr std::size_t kFrames = 300;  ///< bounds of 100 random configurations, three levels each
+
+double real_between(test::Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random.between(0, 1 << 20)) / (1 << 20);
+}
+
+/// Every sample composited by itself.
+scene::SceneDescription sampled(scene::SceneDescription scene) {
+  scene.method = scene::Method::Westover;
+  scene.slab_width = scene::SceneDescription{}.slab_width;
+  scene.xray_exposure = 0.0;
+  scene.xray_sheets = 1;
+  return scene;
+}
+cmodel::Config sampling(cmodel::Config config) {
+  config.composite_every_sample = 1;
+  config.composite_lanes = 0;
+  return config;
+}
+
+/// Shapes of one or several techniques.
+scene::SceneDescription shaped(scene::SceneDescription scene, test::Random& random) {
+  const bool perspective = scene.camera.projection == scene::Projection::Perspective;
+  if (perspective && random.once_in(2)) scene.footprint.shape = scene::FootprintShape::Ellipse;
+  if (random.once_in(2)) {
+    scene.footprint.antialias = true;
+    if (!perspective) scene.camera.zoom = real_between(random, 0.15, 0.6);
+  }
+  if (random.once_in(3)) scene.motion.translate = {real_between(random, 0.0, 3.0), 1.0, real_between(random, 0.0, 1.0)};
+  if (random.once_in(4)) scene.motion.orbit = real_between(random, 1.0, 8.0);
+  if (perspective && random.once_in(3)) {
+    scene.lens.depth_of_field = scene::DepthOfField::Splats;
+    scene.lens.aperture = real_between(random, 0.1, 1.5);
+  }
+  return scene;
+}
+
+/// Bounds of random frames until there are enough of them; frames that a configuration cannot hold do not count.
+template <class Frame>
+BoundTotals at_random(std::uint64_t seed, const char* what, Frame frame) {
+  test::Random random(test::seed_or(seed));
+  BoundTotals totals;
+  while (totals.frames < kFrames) {
+    try {
+      frame(random, totals);
+    } catch (const UserError&) {
+      continue;
+    }
+  }
+  totals.print(what);
+  return totals;
+}
+
+TEST(BoundOfEverySample, HoldsAtRandom) {
+  at_random(3200, "every sample", [](test::Random& random, BoundTotals& totals) {
+    const cmodel::Config config = sampling(test::random_config(random));
+    const scene::Scene scene = scene::build_scene(sampled(stages::test::random_scene(random)));
+    hold(Chain(scene, config), totals);
+  });
+}
+
+TEST(BoundOfEverySample, HoldsOfNamedConfigurationsAndKindsOfIndex) {
+  BoundTotals totals;
+  for (const std::string& name : test::config_names()) {
+    for (auto description : stages::test::small_scenes()) {
+      const scene::Scene scene = scene::build_scene(sampled(description));
+      cmodel::Config config = sampling(test::named_config(name));
+      hold(Chain(scene, config), totals);
+      for (const int kind : {0, 1, 2, 5}) {
+        config.index_kind = kind;
+        if (!cmodel::first_violation(config)) hold(Chain(scene, config), totals, Known::Geometry);
+      }
+    }
+  }
+  totals.print("every sample, named configurations");
+  EXPECT_GT(totals.worst, 0.5);
+}
+
+TEST(BoundOfEllipses, HoldsAtRandom) {
+  std::size_t ellipses = 0;
+  at_random(3201, "ellipses in sheets", [&](test::Random& random, BoundTotals& totals) {
+    const cmodel::Config config = test::random_ellipse_config(random);
+    const scene::Scene scene = scene::build_scene(shaped(stages::test::random_scene(random), random));
+    const Chain chain(scene, config);
+    hold(chain, totals);
+    ellipses += chain.shaped() ? 1 : 0;
+  });
+  std::printf("[figure] frames with shapes: %zu (limit >= 70)\n", ellipses);
+  EXPECT_GE(ellipses, 70u);
+}
+
+TEST(BoundOfEllipses, HoldsAtRandomWithEverySample) {
+  at_random(3202, "ellipses, every sample", [](test::Random& random, BoundTotals& totals) {
+    const cmodel::Config config = sampling(test::random_ellipse_config(random));
+    const scene::Scene scene = scene::build_scene(sampled(shaped(stages::test::random_scene(random), random)));
+    hold(Chain(scene, config), totals);
+  });
+}
+
+TEST(BoundOfEllipses, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
+  at_random(3203, "ellipses, other kinds of index", [](test::Random& random, BoundTotals& totals) {
+    const auto kind = static_cast<IndexKind>(random.one_of({1, 2, 3, 5}));
+    const cmodel::Config config = test::random_ellipse_config(random, kind);
+    const scene::Scene scene = scene::build_scene(shaped(stages::test::random_scene(random), random));
+    hold(Chain(scene, config), totals, Known::Geometry);
+  });
+}
+
+scene::GaussianScene random_gaussians(test::Random& random, float brightness) {
+  scene::GaussianDescription description;
+  description.camera.projection = random.once_in(2) ? scene::Projection::Perspective : scene::Projection::Orthographic;
+  description.camera.azimuth = real_between(random, 0.0, 360.0);
+  description.camera.elevation = real_between(random, -80.0, 80.0);
+  description.camera.zoom = real_between(random, 0.5, 3.0);
+  description.width = static_cast<int>(random.between(14, 30));
+  description.height = static_cast<int>(random.between(14, 30));
+  description.up = scene::UpAxis::Z;
+  auto cloud = scene::make_synthetic_gaussians((random.once_in(2) ? "cloud:" : "shells:") +
+                                               std::to_string(random.between(20, 150)));
+  for (glm::vec3& harmonic : cloud.harmonics) harmonic *= brightness;
+  return scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(cloud)));
+}
+
+TEST(BoundOfGaussians, HoldsAtRandom) {
+  at_random(3204, "3-D Gaussians", [](test::Random& random, BoundTotals& totals) {
+    const auto kind = static_cast<IndexKind>(random.one_of({1, 2, 3, 4, 4, 4, 5}));
+    const cmodel::Config config = sampling(test::random_ellipse_config(random, kind));
+    const scene::GaussianScene scene = random_gaussians(random, random.once_in(3) ? 2.0F : 1.0F);
+    hold(Chain(scene, config), totals);
+  });
+}
+
+cmodel::Config bright(cmodel::Config config, test::Random& random) {
+  config.colour_int_bits = static_cast<int>(random.between(1, 4));
+  config.colour_frac_bits = std::min(config.colour_frac_bits, 16 - config.colour_int_bits);
+  return config;
+}
+
+TEST(BoundOfBrightColours, HoldsAtRandomOfGaussians) {
+  double brightest = 0.0;
+  at_random(3205, "colours above 1, 3-D Gaussians", [&](test::Random& random, BoundTotals& totals) {
+    const cmodel::Config config = bright(sampling(test::random_ellipse_config(random)), random);
+    const scene::GaussianScene scene = random_gaussians(random, static_cast<float>(real_between(random, 1.0, 12.0)));
+    const Chain chain(scene, config);
+    for (const golden::Sums& pixel : chain(Mixture{}).pixels) brightest = std::max(brightest, pixel[0]);
+    hold(chain, totals);
+  });
+  std::printf("[figure] brightest pixel: %.2f (limit > 2)\n", brightest);
+  EXPECT_GT(brightest, 2.0);
+}
+
+TEST(BoundOfBrightColours, HoldsAtRandomOfVolumes) {
+  at_random(3206, "colours above 1, volumes", [](test::Random& random, BoundTotals& totals) {
+    const bool samples = random.once_in(2), shapes = random.once_in(2);
+    cmodel::Config config = bright(shapes ? test::random_ellipse_config(random) : test::random_config(random), random);
+    auto description = stages::test::random_scene(random);
+    if (shapes) description = shaped(description, random);
+    const scene::Scene scene = scene::build_scene(samples ? sampled(description) : description);
+    if (samples) config = sampling(config);
+    hold(Chain(scene, config), totals);
+  });
+}
+
+/// Footprints wider than a record's reach, which is 31 pixels with position words this short (N-8-85).
+TEST(BoundOfGaussians, HoldsWhereARecordsReachClips) {
+  BoundTotals totals;
+  scene::GaussianDescription description;
+  description.camera.zoom = 3.0;
+  description.width = 120, description.height = 40;
+  description.up = scene::UpAxis::Z;
+  auto cloud = scene::make_synthetic_gaussians("cloud:40");
+  for (auto& one : cloud.gaussians) one.scale *= 4.0F;
+  const auto scene = scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(cloud)));
+  cmodel::Config config = sampling(test::named_config("ellipse"));
+  config.tile_width = config.tile_height = 32;
+  config.rlut_columns = 8;
+  config.position_int_bits = 7;
+  ASSERT_FALSE(cmodel::first_violation(config));
+  const Chain chain(scene, config);
+  hold(chain, totals);
+  totals.print("clipped at a record's reach");
+  Mixture geometry = known_steps(Known::Geometry), whole = geometry;
+  whole.set(Step::Distance, false);
+  const auto clipped = chain(geometry), all = chain(whole);
+  double lost = 0.0;
+  for (std::size_t i = 0; i < all.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 4; ++c) lost = std::max(lost, std::abs(all.pixels[i][c] - clipped.pixels[i][c]));
+  }
+  std::printf("[figure] most that is clipped: %.4g (limit > 0.01)\n", lost);
+  EXPECT_GT(lost, 0.01);
+}
+
+/// Steps that can stand alone, or groups of them. An ellipse's distance goes with the words of its centre and shape,
+/// which place its records.
+const std::vector<std::vector<Step>>& alone() {
+  static const std::vector<std::vector<Step>> kAlone{{Step::Position, Step::Snap},
+                                                     {Step::Radius},
+                                                     {Step::Position, Step::Snap, Step::Radius, Step::Distance},
+                                                     {Step::Index},
+                                                     {Step::Weight},
+                                                     {Step::Emission},
+                                                     {Step::Depth},
+                                                     {Step::Phi},
+                                                     {Step::Share},
+                                                     {Step::Product},
+                                                     {Step::Factor, Step::Slab},
+                                                     {Step::Composite},
+                                                     {Step::Freeze}};
+  return kAlone;
+}
+
+/// In which steps can stand alone: nothing is diffused, products and slabs of any numbers lose bits, and sums do not
+/// saturate.
+cmodel::Config isolating(cmodel::Config config) {
+  config.rounding_carry = static_cast<int>(cmodel::Carry::Off);
+  config.colour_frac_bits = 16 - config.colour_int_bits;
+  config.radial_frac_bits = 16;
+  config.sheet_int_bits = 8;
+  config.sheet_frac_bits = std::clamp(config.sheet_frac_bits, 8, 20);
+  config.opacity_frac_bits = 16;
+  config.composite_frac_bits = std::min(config.composite_frac_bits, config.sheet_frac_bits - 1);
+  config.freeze_below = std::min(config.freeze_below, 1 << config.composite_frac_bits);
+  return config;
+}
+scene::SceneDescription isolating(scene::SceneDescription scene) {
+  scene.opacity_scale = std::min(scene.opacity_scale, 16.0);
+  return scene;
+}
+
+/// Bounds of each of them, in frames of `frame`(random, visit), which calls visit(chain).
+template <class Frame>
+void each_alone(std::uint64_t seed, const char* what, Frame frame) {
+  for (const auto& steps : alone()) {
+    test::Random random(test::seed_or(seed));
+    BoundTotals totals;
+    for (int i = 0; i < 40; ++i) {
+      try {
+        frame(random, [&](const Chain& chain) { hold(chain, Mixture{}.with(steps), totals); });
+      } catch (const UserError&) {
+        continue;
+      }
+    }
+    totals.print(std::string(what) + ", " + Mixture{}.with(steps).text() + " alone");
+    EXPECT_GT(totals.frames, 20u);
+  }
+}
+
+TEST(BoundOfEllipses, HoldsForEachStepAlone) {
+  each_alone(3210, "ellipses", [](test::Random& random, auto visit) {
+    const cmodel::Config config = isolating(test::random_ellipse_config(random));
+    const scene::Scene scene = scene::build_scene(isolating(shaped(stages::test::random_scene(random), random)));
+    visit(Chain(scene, config));
+  });
+}
+
+TEST(BoundOfEverySample, HoldsForEachStepAlone) {
+  each_alone(3211, "every sample", [](test::Random& random, auto visit) {
+    const cmodel::Config config = isolating(sampling(test::random_config(random)));
+    const scene::Scene scene = scene::build_scene(isolating(sampled(stages::test::random_scene(random))));
+    visit(Chain(scene, config));
+  });
+}
+
+TEST(BoundOfGaussians, HoldsForEachStepAlone) {
+  each_alone(3212, "3-D Gaussians", [](test::Random& random, auto visit) {
+    const cmodel::Config config = isolating(sampling(test::random_ellipse_config(random)));
+    const scene::GaussianScene scene = random_gaussians(random, 1.0F);
+    visit(Chain(scene, config));
+  });
+}
+
+}  // namespace
+}  // namespace fastsplat::analysis

@@ -53,6 +53,11 @@ scene::SceneDescription shaped(scene::SceneDescription scene, test::Random& rand
     scene.lens.depth_of_field = scene::DepthOfField::Splats;
     scene.lens.aperture = real_between(random, 0.1, 1.5);
   }
+  if (!perspective && random.once_in(5)) {  // thinner than the driver draws, which then makes it fainter
+    scene.footprint.antialias = false;
+    scene.camera.zoom = real_between(random, 0.06, 0.12);
+    scene.motion.translate = {6.0, 1.0, 0.0};
+  }
   return scene;
 }
 
@@ -127,7 +132,8 @@ TEST(BoundOfEllipses, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
   });
 }
 
-scene::GaussianScene random_gaussians(test::Random& random, float brightness) {
+/// `faint`: and large, so that many are seen behind each other.
+scene::GaussianScene random_gaussians(test::Random& random, float brightness, bool faint = false) {
   scene::GaussianDescription description;
   description.camera.projection = random.once_in(2) ? scene::Projection::Perspective : scene::Projection::Orthographic;
   description.camera.azimuth = real_between(random, 0.0, 360.0);
@@ -139,6 +145,10 @@ scene::GaussianScene random_gaussians(test::Random& random, float brightness) {
   auto cloud = scene::make_synthetic_gaussians((random.once_in(2) ? "cloud:" : "shells:") +
                                                std::to_string(random.between(20, 150)));
   for (glm::vec3& harmonic : cloud.harmonics) harmonic *= brightness;
+  for (auto& one : cloud.gaussians) {
+    one.opacity *= faint ? 0.1F : 1.0F;
+    one.scale *= faint ? 3.0F : 1.0F;
+  }
   return scene::build_gaussian_scene(description, std::make_shared<scene::GaussianCloud>(std::move(cloud)));
 }
 
@@ -146,7 +156,7 @@ TEST(BoundOfGaussians, HoldsAtRandom) {
   at_random(3204, "3-D Gaussians", [](test::Random& random, BoundTotals& totals) {
     const auto kind = static_cast<IndexKind>(random.one_of({1, 2, 3, 4, 4, 4, 5}));
     const cmodel::Config config = sampling(test::random_ellipse_config(random, kind));
-    const scene::GaussianScene scene = random_gaussians(random, random.once_in(3) ? 2.0F : 1.0F);
+    const scene::GaussianScene scene = random_gaussians(random, static_cast<float>(random.one_of({1, 1, 2, 12})));
     hold(Chain(scene, config), totals);
   });
 }
@@ -272,6 +282,112 @@ TEST(BoundOfEllipses, HoldsForEachStepAlone) {
     const scene::Scene scene = scene::build_scene(isolating(shaped(stages::test::random_scene(random), random)));
     visit(Chain(scene, config));
   });
+}
+
+/// Single splats thinner than the driver draws, which makes them wider and fainter.
+TEST(BoundOfEllipses, HoldsForThinOnes) {
+  test::Random random(test::seed_or(3216));
+  BoundTotals totals;
+  std::size_t thin = 0;
+  while (totals.frames < kFrames) {
+    const cmodel::Config config = isolating(test::random_ellipse_config(random));
+    auto description = isolating(stages::test::random_scene(random));
+    description.camera.projection = scene::Projection::Orthographic;
+    description.camera.zoom = std::exp2(real_between(random, -8.0, -3.0));
+    description.motion.translate = {6.0, 1.0, 0.0};
+    description.volume = "shells:8";
+    const int x = static_cast<int>(random.between(1, 6)), y = static_cast<int>(random.between(1, 6));
+    description.crop = {.low = {x, y, 2}, .high = {x, y, 2}};
+    try {
+      const scene::Scene scene = scene::build_scene(description);
+      const Chain chain(scene, config);
+      if (chain.splats() == 0) continue;
+      const double real = chain.staged(Mixture{}, false, 1).splats[0].value[3];
+      if (chain.staged(Mixture{Step::Radius}, false, 1).splats[0].value[3] > 0.9 * real) continue;
+      ++thin;
+      hold(chain, totals);
+      hold(chain, Mixture{Step::Radius}, totals);
+    } catch (const UserError&) {
+      continue;
+    }
+  }
+  totals.print("thin ellipses");
+  std::printf("[figure] single splats that are fainter by a tenth or more: %zu (limit >= 50)\n", thin);
+  EXPECT_GE(thin, 50u);
+}
+
+/// Few voxels and thick slabs: a single boundary that moves is seen.
+TEST(BoundOfEllipses, HoldsForDepthsOfGrownKernels) {
+  test::Random random(test::seed_or(3213));
+  BoundTotals totals;
+  double grown = 1.0;
+  for (int frame = 0; frame < 300; ++frame) {
+    cmodel::Config config = isolating(test::random_ellipse_config(random));
+    config.slice_phase_bits = static_cast<int>(random.between(2, 6));
+    config.slice_frac_bits = 24;
+    auto description = isolating(stages::test::random_scene(random));
+    description.method = scene::Method::ImageAligned;
+    description.camera.projection = scene::Projection::Orthographic;
+    description.footprint.antialias = true;
+    description.camera.zoom = real_between(random, 0.1, 0.5);
+    description.slab_width = real_between(random, 3.0, 8.0);
+    description.volume = "shells:8";
+    const int x = static_cast<int>(random.between(1, 5)), y = static_cast<int>(random.between(1, 5)),
+              z = static_cast<int>(random.between(1, 4));
+    description.crop = {.low = {x, y, z}, .high = {x, y, z + 2}};
+    try {
+      const scene::Scene scene = scene::build_scene(description);
+      const Chain chain(scene, config);
+      hold(chain, Mixture{Step::Depth}, totals);
+      hold(chain, Mixture{Step::Depth, Step::Phi}, totals);
+      for (const auto& shape : chain.staged(Mixture{}, false, 1).shapes) grown = std::max(grown, shape.growth.real);
+    } catch (const UserError&) {
+      continue;
+    }
+  }
+  totals.print("depths of grown kernels");
+  std::printf("[figure] largest growth: %.2f (limit > 2)\n", grown);
+  EXPECT_GT(grown, 2.0);
+}
+
+/// Colours that would be brighter than a composited word can hold, U (1+ci).tf, in a picture that could show them.
+TEST(BoundOfBrightColours, HoldsWhereCompositedColoursEnd) {
+  test::Random random(test::seed_or(3215));
+  BoundTotals totals;
+  std::size_t ended = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    cmodel::Config config = sampling(test::named_config("ellipse"));
+    config.pixel_int_bits = 5;
+    const scene::GaussianScene scene = random_gaussians(random, 12.0F, true);
+    const Chain chain(scene, config);
+    hold(chain, totals);
+    for (const golden::Sums& pixel : chain(Mixture::all_device()).pixels) ended += pixel[0] >= 1.99 ? 1 : 0;
+  }
+  totals.print("composited colours that end");
+  std::printf("[figure] pixels at the end: %zu (limit > 0)\n", ended);
+  EXPECT_GT(ended, 0u);
+}
+
+/// Layers whose added opacities pass 1 by what a step moves them, before others of nearly the same colour.
+TEST(BoundOfBrightColours, HoldsWhereAddedOpacitiesEndAtOne) {
+  test::Random random(test::seed_or(3214));
+  BoundTotals totals;
+  for (int frame = 0; frame < 150; ++frame) {
+    const cmodel::Config config = isolating(test::random_config(random));
+    auto description = stages::test::random_scene(random);
+    description.method = scene::Method::ImageAligned;
+    description.slab_opacity = scene::SlabOpacity::Additive;
+    description.opacity_scale = real_between(random, 1.0, 12.0);
+    try {
+      const scene::Scene scene = scene::build_scene(description);
+      const Chain chain(scene, config);
+      for (const auto& steps : {Mixture{Step::Position, Step::Snap}, Mixture{Step::Radius}, Mixture{Step::Index}})
+        hold(chain, steps, totals);
+    } catch (const UserError&) {
+      continue;
+    }
+  }
+  totals.print("added opacities about 1");
 }
 
 TEST(BoundOfEverySample, HoldsForEachStepAlone) {

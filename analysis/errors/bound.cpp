@@ -123,6 +123,9 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
       most += std::max(0.0, there.pixels[i][c] + most - largest);
       most += roundings.pixel + std::max(0.0, there.pixels[i][c] + most + roundings.pixel - roundings.largest_pixel);
       most += exact + kSlack;
+      // An output word lies between 0 and the largest one.
+      const double wanted = real.pixels[i][c];
+      most = std::min(most, std::max(wanted, roundings.largest_pixel - wanted) + kSlack);
       out.mean[static_cast<std::size_t>(Term::Known)] += exact / values;
       out.mean[static_cast<std::size_t>(Term::Pixel)] += roundings.pixel / values;
     }

@@ -11,6 +11,7 @@
 #include "cmodel/splat/ellipse_unit.hpp"
 #include "driver/splats/ellipse_shape.hpp"
 #include "driver/tiles/gaussian_windows.hpp"
+#include "golden/sheet.hpp"
 #include "golden/splat/footprint.hpp"
 
 namespace fastsplat::stages {

@@ -141,7 +141,6 @@ void declare(Options& options, ErrorsArguments& to) {
                   "each step's share of the error, and where it occurs");
   options.example("fastsplat errors --volume shells:32 --size 64 --config tiny --quick --json errors.json",
                   "a third of the time, as JSON");
-  options.example("fastsplat errors --gaussians shells:500 --size 96", "the same of 3-D Gaussians");
   options.example("fastsplat errors --gaussians shells:500 --size 96 --formats fp16,fp32 --quick",
                   "what half floats would cost, with sums of binary32");
 }

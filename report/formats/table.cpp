@@ -89,6 +89,7 @@ Table cycles(const Figures& f) {
 }
 
 Table errors(const Figures& f) { return list(f, "steps"); }
+Table errors_file(const Figures& f) { return list(f, "parts"); }
 Table bound(const Figures& f) { return list(f, "levels"); }
 Table ranges(const Figures& f) { return list(f, "sites"); }
 Table propose(const Figures& f) { return list(f, "keys"); }
@@ -141,13 +142,21 @@ Table counters(const Figures& f) {
 
 Table table_of(const Result& result) {
   using TableOf = Table (*)(const Figures&);
-  static const std::map<std::string, TableOf> all{{"closure", closure},      {"compare", compare},
-                                                  {"coverage", coverage},    {"cycles", cycles},
-                                                  {"errors", errors},        {"errors bound", bound},
-                                                  {"errors ranges", ranges}, {"errors propose", propose},
-                                                  {"family", family},        {"plan", plan},
-                                                  {"verify", verify},        {"stream replay", counters},
-                                                  {"render", counters},      {"stream record", counters}};
+  static const std::map<std::string, TableOf> all{{"closure", closure},
+                                                  {"compare", compare},
+                                                  {"coverage", coverage},
+                                                  {"cycles", cycles},
+                                                  {"errors", errors},
+                                                  {"errors bound", bound},
+                                                  {"errors ranges", ranges},
+                                                  {"errors propose", propose},
+                                                  {"errors file", errors_file},
+                                                  {"family", family},
+                                                  {"plan", plan},
+                                                  {"verify", verify},
+                                                  {"stream replay", counters},
+                                                  {"render", counters},
+                                                  {"stream record", counters}};
   const auto found = all.find(result.subcommand);
   return found == all.end() ? Table{} : found->second(Figures(result));
 }

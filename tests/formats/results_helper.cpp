@@ -39,6 +39,10 @@ const char* const kErrors = R"({"verb": "errors", "total": {"rms_lsb8": 2.0, "bi
   "steps": [{"name": "snap", "steps": ["position", "snap"], "share": 0.75, "increment": {"rms_lsb8": 1.5, "bias_lsb8": -0.5}},
             {"name": "pixel", "steps": ["pixel"], "share": 0.25, "increment": {"rms_lsb8": 0.5, "bias_lsb8": 0.25}}]})";
 
+const char* const kErrorsFile = R"({"verb": "errors file", "file": {"rms_lsb8": 2.0}, "device": {"rms_lsb8": 0.5},
+  "total": {"rms_lsb8": 2.25}, "parts": [{"name": "position", "by": "file", "share": 0.75, "rms_lsb8": 1.5, "alone": {"psnr_db": 45.5}},
+                                        {"name": "pixel", "by": "device", "share": 0.25, "rms_lsb8": 0.5}]})";
+
 const char* const kBound = R"({"verb": "errors bound", "holds": true,
   "levels": [{"known": "scene", "values": 64, "over": 0, "greatest_bound_lsb8": 9.5, "greatest_error_lsb8": 2.25}]})";
 
@@ -90,8 +94,8 @@ Result result_from(const std::string& file, const std::string& text) {
 
 std::vector<Result> all_kinds() {
   std::vector<Result> results;
-  for (const char* text : {kCompare, kCycles, kErrors, kBound, kPropose, kRanges, kFamily, kPlan, kRender, kRecord,
-                           kReplay, kVerify, kCoverage, kClosure})
+  for (const char* text : {kCompare, kCycles, kErrors, kErrorsFile, kBound, kPropose, kRanges, kFamily, kPlan, kRender,
+                           kRecord, kReplay, kVerify, kCoverage, kClosure})
     results.push_back(result_from("result-" + std::to_string(results.size()) + ".json", text));
   return results;
 }

@@ -82,7 +82,7 @@ TEST(OutputFormats, JunitHasACasePerGate) {
     }
   }
   std::printf("[figure] gates = %zu, failures = %zu, errors = %zu (limit > 0)\n", gates, failures, errors);
-  EXPECT_EQ(gates, 3u + 1 + 2 + 1 + 1 + 1 + 1 + 3 + 1 + 1 + 1 + 4 + 1 + 5);
+  EXPECT_EQ(gates, 3u + 1 + 2 + 1 + 1 + 1 + 1 + 1 + 3 + 1 + 1 + 1 + 4 + 1 + 5);
   EXPECT_EQ(failures, 1u + 1 + 1 + 3 + 2);  // compare, propose, plan, verify, closure
   EXPECT_EQ(errors, 1u);                    // plan
   EXPECT_EQ(count(xml, "<testcase "), gates);

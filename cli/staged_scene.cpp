@@ -34,10 +34,11 @@ std::vector<std::string> StagedScene::inputs() const {
                 inputs_of_config(flags_.config.config.value_or("")));
 }
 
-std::vector<stages::StepSet> StagedScene::sets() const {
-  return view_ ? stages::gaussian_sets(config_)
-               : stages::step_sets(config_, driver::carries(description_.method, config_),
-                                   driver::holds_densities(description_));
+std::vector<stages::StepSet> StagedScene::sets(bool floats) const {
+  auto sets = view_ ? stages::gaussian_sets(config_)
+                    : stages::step_sets(config_, driver::carries(description_.method, config_) && !floats,
+                                        driver::holds_densities(description_));
+  return floats ? stages::float_sets(std::move(sets)) : sets;
 }
 
 void StagedScene::read(const Output& output) {

@@ -31,7 +31,7 @@ class StagedScene {
   explicit StagedScene(const StagedFlags& flags);
   const cmodel::Config& config() const { return config_; }
   std::vector<std::string> inputs() const;  ///< files that the command reads
-  std::vector<stages::StepSet> sets() const;
+  std::vector<stages::StepSet> sets(bool floats) const;  ///< as Chain::sets()
 
   /// Reads the scene and prints its remarks. Before the functions below.
   void read(const Output& output);

@@ -166,7 +166,7 @@ Attribution attribute(const stages::Chain& chain, const AttributionOptions& opti
   out.quick = options.quick;
   out.floats = options.floats;
   const Mixture all = options.floats ? Mixture::all_floats(*options.floats) : Mixture::all_device();
-  const std::vector<stages::StepSet> sets = options.floats ? stages::float_sets(chain.sets()) : chain.sets();
+  const std::vector<stages::StepSet> sets = chain.sets(options.floats.has_value());
   const auto n = static_cast<int>(sets.size());
   const std::vector<stages::StepSet> groups = stages::group_sets(chain.holds_densities());
   const int coalitions = (1 << groups.size()) - 2;  // without the empty one and the full one

@@ -36,9 +36,10 @@ class Chain {
   /// `threads` (0: all cores) never change the result.
   Picture operator()(const Mixture& mixture, int threads = 1) const;
 
-  /// The frame's steps, grouped as they are reported.
-  std::vector<StepSet> sets() const {
-    return gaussians_ ? gaussian_sets(config_) : step_sets(config_, carries(), holds_densities());
+  /// The frame's steps, grouped as they are reported. Of floats, which diffuse no error, if `floats`.
+  std::vector<StepSet> sets(bool floats = false) const {
+    auto sets = gaussians_ ? gaussian_sets(config_) : step_sets(config_, carries() && !floats, holds_densities());
+    return floats ? float_sets(std::move(sets)) : sets;
   }
   bool holds_densities() const { return densities_.has_value(); }
   const SplatSteps& steps() const { return *steps_; }  ///< of a volume

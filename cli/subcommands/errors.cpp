@@ -69,7 +69,7 @@ std::vector<std::string> map_names(const std::string& prefix, const std::vector<
 
 void write_maps(const ErrorsArguments& arguments, const StagedScene& scene, const ErrorsResult& result) {
   const analysis::Attribution& a = result.attribution;
-  const auto sets = a.floats ? stages::float_sets(scene.sets()) : scene.sets();
+  const auto sets = scene.sets(a.floats.has_value());
   const auto pngs = map_names(arguments.maps, sets, ".png"), exrs = map_names(arguments.maps, sets, ".exr");
   const Image real = analysis::to_image(a.real);
   const images::Metadata metadata = scene.metadata("errors");
@@ -89,7 +89,7 @@ ExitCode run(const ErrorsArguments& arguments) {
   StagedScene scene(arguments.of);
   const cmodel::Config& config = scene.config();
   const auto floats = floats_of(arguments);
-  const auto sets = floats ? stages::float_sets(scene.sets()) : scene.sets();
+  const auto sets = scene.sets(floats.has_value());
   check_outputs({.images = map_names(arguments.maps, sets, ".exr"),
                  .maps = joined(map_names(arguments.maps, sets, ".png"), {arguments.blame}),
                  .raws = {},

@@ -158,6 +158,10 @@ TEST(Errors, BadInputIsOneLine) {
   refused(with({"errors", "bound", "--maps", (folder.path() / "no" / "such" / "m").string()}, kSmall), 3, "such");
   refused({"errors", "bond"}, 2, "did you mean 'bound'");
   refused(with({"errors", "--lsb-bits", "0"}, kSmall), 2, "--lsb-bits");
+  refused(with({"errors", "--formats", "fp17"}, kSmall), 2, "fp17");
+  refused(with({"errors", "--formats", "fp16,fp32,fp32"}, kSmall), 2, "--formats");
+  refused(with({"errors", "--tile-centres"}, kSmall), 2, "--formats");
+  refused(with({"errors", "--flush-subnormals"}, kSmall), 2, "--formats");
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(BoundOfEverySample, HoldsOfNamedConfigurationsAndKindsOfIndex) {
       const scene::Scene scene = scene::build_scene(sampled(description));
       cmodel::Config config = sampling(test::named_config(name));
       hold(Chain(scene, config), totals);
-      for (const int kind : {0, 1, 2, 5}) {
+      for (const int kind : {0, 1, 2, 3, 5}) {
         config.index_kind = kind;
         if (!cmodel::first_violation(config)) hold(Chain(scene, config), totals, Known::Geometry);
       }
@@ -346,6 +346,7 @@ TEST(BoundOfEllipses, HoldsForDepthsOfGrownKernels) {
     }
   }
   totals.print("depths of grown kernels");
+  EXPECT_GT(totals.frames, 100u);
   std::printf("[figure] largest growth: %.2f (limit > 2)\n", grown);
   EXPECT_GT(grown, 2.0);
 }
@@ -388,6 +389,7 @@ TEST(BoundOfBrightColours, HoldsWhereAddedOpacitiesEndAtOne) {
     }
   }
   totals.print("added opacities about 1");
+  EXPECT_GT(totals.frames, 100u);
 }
 
 TEST(BoundOfEverySample, HoldsForEachStepAlone) {

@@ -63,7 +63,7 @@ TEST(Bound, HoldsWhereNothingIsSeenBehindASheet) {
 
 TEST(Bound, HoldsForEveryKindOfIndexWhereItsGeometryIsKnown) {
   BoundTotals totals;
-  for (const int kind : {0, 1, 2, 5}) {
+  for (const int kind : {0, 1, 2, 3, 5}) {
     for (const char* name : {"base", "compact", "tiny"}) {
       cmodel::Config config = test::named_config(name);
       config.index_kind = kind;

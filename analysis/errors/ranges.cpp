@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/errors/derived_ranges.hpp"
+
 namespace fastsplat::analysis {
 namespace {
 
@@ -28,11 +30,6 @@ double signed_value_of(const cmodel::WideSum& sum) {
   cmodel::WideSum minus{~sum.low, ~sum.high};
   minus += {1, 0};
   return -value_of(minus);
-}
-
-std::string format_text(const cmodel::Format& format) {
-  if (format.word_bits == 0) return fmt::format("One.{}", format.frac_bits);
-  return fmt::format("{} {}.{}", format.min < 0 ? 'S' : 'U', format.word_bits - format.frac_bits, format.frac_bits);
 }
 
 const char* text_of(Rounding rounding) {

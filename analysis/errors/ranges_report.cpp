@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/errors/derived_ranges.hpp"
 #include "analysis/errors/ranges.hpp"
 #include "base/hash_text.hpp"
 
@@ -66,6 +68,42 @@ Json site_json(const SiteRange& site) {
           {"histogram", histogram}};
 }
 
+/// The simulated range of a site; null if no value passed it.
+const SiteRange* simulated(const RangesReport& report, cmodel::Site site) {
+  const auto found =
+      std::find_if(report.sites.begin(), report.sites.end(), [&](const SiteRange& one) { return one.site == site; });
+  return found == report.sites.end() ? nullptr : &*found;
+}
+
+std::string derived_text(const RangesReport& report) {
+  std::string text = fmt::format("{:<14}{:<8}{:<22}{:<18}{:<12}{}\n", "site", "word", "these scenes", "any scene",
+                                 "verdict", "largest value of any scene");
+  for (const DerivedRange& range : derived_ranges(report.config)) {
+    const cmodel::Narrowing narrowing = cmodel::narrowing(report.config, range.site);
+    const SiteRange* seen = simulated(report, range.site);
+    text +=
+        fmt::format("{:<14}{:<8}{:<22}{:<18}{:<12}{}\n", cmodel::facts(range.site).name, format_text(narrowing.to()),
+                    seen == nullptr ? "-" : fmt::format("{:.6g}..{:.6g}", seen->least, seen->greatest),
+                    interval_text(range.least, range.greatest, narrowing.from_frac()), verdict(range), range.formula);
+  }
+  return text;
+}
+
+Json derived_json(const RangesReport& report, const DerivedRange& range) {
+  const cmodel::Narrowing narrowing = cmodel::narrowing(report.config, range.site);
+  const auto value = [&](std::int64_t word) { return std::ldexp(static_cast<double>(word), -narrowing.from_frac()); };
+  Json json{{"site", cmodel::facts(range.site).name},
+            {"format", format_text(narrowing.to())},
+            {"least", value(range.least)},
+            {"greatest", value(range.greatest)},
+            {"formula", range.formula},
+            {"verdict", to_string(range.width)},
+            {"unused_head_bits", range.spare},
+            {"simulated", nullptr}};
+  if (const SiteRange* seen = simulated(report, range.site)) json["simulated"] = Json{seen->least, seen->greatest};
+  return json;
+}
+
 }  // namespace
 
 std::string to_text(const RangesReport& report) {
@@ -93,6 +131,7 @@ std::string to_text(const RangesReport& report) {
   text +=
       "(lost: word minus value, in units of the last place; head: leading bits never used; tail: trailing bits always "
       "0)\n";
+  text += derived_text(report);
   text += "magnitudes by leading bit, in tenths of the most frequent one:\n";
   for (const SiteRange& site : report.sites)
     text += fmt::format("{:<14}{}, {:.1f} % are 0\n", name(site), bars(site), 100.0 * share(site.zeros, site.values));
@@ -122,6 +161,8 @@ Json to_json(const RangesReport& report) {
   }
   json["sites"] = Json::array();
   for (const SiteRange& site : report.sites) json["sites"].push_back(site_json(site));
+  for (const DerivedRange& range : derived_ranges(report.config))
+    json["derived"].push_back(derived_json(report, range));
   report.counters.for_each(
       [&](const char* counter, std::uint64_t value, const char*) { json["counters"][counter] = value; });
   return json;

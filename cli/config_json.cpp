@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/errors/area.hpp"
 #include "analysis/errors/cost.hpp"
 #include "analysis/errors/synthesised.hpp"
 #include "analysis/index_kinds/family_cost.hpp"
@@ -25,6 +26,7 @@ nlohmann::ordered_json priced_config_json(const cmodel::Config& config) {
   const bool counted = config.index() == cmodel::IndexKind::Rlut;
   json["cost"] = counted ? analysis::to_json(analysis::cost(config)) : nlohmann::ordered_json(nullptr);
   json["synthesis"] = analysis::synthesised(config);
+  json["area"] = analysis::area_json(config);
   json["index_cost"] = {{"radius", kPricedRadius},
                         {"table_bits", analysis::storage_bits(config, kPricedRadius)},
                         {"cycles_per_splat", analysis::cycles_per_splat(config, kPricedRadius)}};
@@ -42,7 +44,7 @@ nlohmann::ordered_json config_json(const cmodel::Config& config) {
                               {"verified", config.verified},
                               {"hash", hash_text(cmodel::config_hash(config))}};
   const auto priced = priced_config_json(config);
-  for (const char* name : {"cost", "synthesis", "index_cost"}) json[name] = priced.at(name);
+  for (const char* name : {"cost", "synthesis", "area", "index_cost"}) json[name] = priced.at(name);
   for (const auto& key : cmodel::config_keys()) {
     const std::string name = key.name;
     const auto dot = name.find('.');

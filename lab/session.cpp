@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/compare.hpp"
+#include "analysis/errors/area.hpp"
 #include "analysis/errors/attribution.hpp"
 #include "analysis/errors/attribution_report.hpp"
 #include "analysis/errors/cost.hpp"
@@ -101,6 +102,7 @@ Json config_json(const cmodel::Config& config) {
   const bool counted = config.index() == cmodel::IndexKind::Rlut;
   out["cost"] = counted ? analysis::to_json(analysis::cost(config)) : Json(nullptr);
   out["synthesis"] = analysis::synthesised(config);
+  out["area"] = analysis::area_json(config);
   return out;
 }
 

@@ -93,6 +93,8 @@ const std::vector<Metric>& known_metrics() {
       {"xc7_*", "7-series: *", "cells", Less, "cycles/config/synthesis/xc7/*"},
       {"ecp5_*", "ECP5: *", "cells", Less, "cycles/config/synthesis/ecp5/*"},
       {"ice40_*", "iCE40: *", "cells", Less, "cycles/config/synthesis/ice40/*"},
+      {"area_*", "area model, 7-series: *", "cells", Less, "render/config/area/*"},
+      {"area_*", "area model, 7-series: *", "cells", Less, "cycles/config/area/*"},
       {"table_bits", "tables of the index, a radius set", "bit", Less, "render/config/index_cost/table_bits"},
       {"table_bits", "tables of the index, a radius set", "bit", Less, "cycles/config/index_cost/table_bits"},
       {"splat_cycles", "cycles a splat of the index", "cycles", Less, "render/config/index_cost/cycles_per_splat"},

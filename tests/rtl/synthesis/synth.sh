@@ -9,7 +9,7 @@
 #   FAMILY-CONFIG.bin     the bitstream of a whole device, if icepack is installed
 # FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed. tiny stands for tiny_hx8k.toml in ice40_wrap;
 # other configurations are placed whole in ice40_whole. CONFIG plain, ellipses, samples, densities, cull_block, cull_pixel:
-# configs/faults/westover.toml without these keys, or with that key alone, to show its cost. SEEDS: seeds of the placer (1 to 8).
+# configs/faults/westover.toml without these keys, or with that key alone, to show its cost. CONFIG sample_*: WORK_DIR/FAMILY-CONFIG.toml. SEEDS: seeds of the placer (1 to 8).
 set -eu
 family=$1 config=$2 emit=$3 source=$4 work=$5
 mkdir -p "$work"
@@ -35,6 +35,7 @@ if [ "$top" = ice40_wrap ]; then
 else
   from=$config
   case $config in
+    sample_*) from="$base.toml" ;;
     plain | ellipses | samples | densities | cull_block | cull_pixel)
       from="$base.toml"
       sed -e '/^\[ellipse\]/,/^$/d' -e '/^every_sample/d' "$source/configs/faults/westover.toml" >"$from"

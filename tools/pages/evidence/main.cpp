@@ -4,6 +4,11 @@
 //   synthesis KEPT WORK_DIR FAMILY-CONFIG...
 //     prints KEPT (may be missing) with the named designs renewed from synth.sh's files and, if present,
 //     FAMILY-CONFIG.stamp
+//   area MODEL
+//     prints NAME --set KEY=VALUE... of the samples of docs/evidence/area_model.json that have no cells, or of all if
+//     none lacks them: their difference from base
+//   area MODEL WORK_DIR
+//     prints MODEL with the cells of the samples that synth.sh has synthesised (xc7-NAME.*)
 //   ratchet BASELINE WORK_DIR FAMILY-CONFIG...
 //     compares with the baseline: exit code 1 if a figure moved by more than 2 %, 77 if tool versions differ
 //   seed BASELINE FAMILY-CONFIG
@@ -21,6 +26,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -56,6 +62,43 @@ auto find_design(Entries& entries, const Json& like) {
   return std::find_if(entries.begin(), entries.end(), [&](const Json& entry) {
     return entry.at("family") == like.at("family") && entry.at("design") == like.at("design");
   });
+}
+
+/// Prints the samples of the area model as flags, or with `work` the model with cells by module: [lut, ff, bram, dsp].
+int area(Json model, const std::string& work) {
+  const Json& samples = model.at("samples");
+  const bool some =
+      std::any_of(samples.begin(), samples.end(), [](const Json& entry) { return !entry.contains("cells"); });
+  for (Json& sample : model.at("samples")) {
+    const auto name = sample.at("name").get<std::string>();
+    if (work.empty()) {
+      if (some && sample.contains("cells")) continue;
+      std::cout << name;
+      for (const auto& [key, value] : sample.at("set").items())
+        std::cout << " --set " << key << "=" << (value.is_string() ? value.get<std::string>() : value.dump());
+      std::cout << "\n";
+    } else if (std::filesystem::exists(work + "/xc7-" + name + ".stat")) {
+      const Json design = read_synthesis(work, "xc7", name);
+      std::map<std::string, std::vector<int>> cells;
+      for (const auto& [module, found] : design.at("modules").items()) {
+        const auto from = module.find("fastsplat_") + 10;
+        auto& to =
+            cells[module.substr(from, module.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789", from) - from)];
+        to.resize(4);
+        const char* const kinds[] = {"lut", "ff", "bram", "dsp"};
+        for (std::size_t i = 0; i < 4; ++i) to[i] += found.at("instances").get<int>() * found.at(kinds[i]).get<int>();
+      }
+      sample["configuration"] = design.at("configuration");
+      sample["cells"] = cells;
+      model["tool"] = design.at("tools").at("yosys");
+    }
+  }
+  if (work.empty()) return 0;
+  std::cout << "{\"tool\":" << model.at("tool") << ",\n\"base\":" << model.at("base") << ",\n\"samples\":";
+  const char* before = "[\n";
+  for (const Json& sample : model.at("samples")) std::cout << std::exchange(before, ",\n") << sample;
+  std::cout << "\n]}\n";
+  return 0;
 }
 
 int ratchet(const Json& baseline, const std::string& work, std::span<const std::string> names) {
@@ -157,6 +200,7 @@ int run(const std::vector<std::string>& words) {
     std::cout << "\n]\n";
     return 0;
   }
+  if (is("area", 1)) return area(read_json(words[1]), words.size() > 2 ? words[2] : "");
   if (is("ratchet", 3)) return ratchet(read_json(words[1]), words[2], std::span(words).subspan(3));
   if (is("seed", 2)) return seed(read_json(words[1]), words[2]);
   if (is("figures", 2)) {
@@ -174,7 +218,8 @@ int run(const std::vector<std::string>& words) {
     std::cout << page(words[1], words.size() > 2 ? read_json(words[2]) : Json());
     return 0;
   }
-  std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | ratchet BASELINE WORK_DIR "
+  std::cerr << "usage: fastsplat_evidence synthesis KEPT WORK_DIR FAMILY-CONFIG... | area MODEL [WORK_DIR] | ratchet "
+               "BASELINE WORK_DIR "
                "FAMILY-CONFIG... | seed BASELINE FAMILY-CONFIG | figures TOOL GTEST_JSON | proofs TOOL SECONDS "
                "PROCESSORS FILE... | page FOLDER [STAMP]\n";
   return 2;

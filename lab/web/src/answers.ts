@@ -68,6 +68,8 @@ export interface Config {
   cost: Cost | null;
   /** Per technology: lut, ff, bram, dsp. Null if this device was not synthesised. */
   synthesis: Record<string, Record<string, number | string>> | null;
+  /** Estimate of the area model. Null if the RTL cannot be built from it. */
+  area: Record<string, number | string> | null;
   toml?: string;
 }
 

@@ -58,7 +58,8 @@ void Model::take(const Record& record, Observer& observer) {
   } else if (std::holds_alternative<EndTile>(record)) {
     end_tile(observer);
   } else if (const auto* set = std::get_if<CullBlock>(&record)) {
-    cull_block(*set);
+    ++counters_.cull_blocks;
+    cull_.cull_block(*set);
   }
 }
 
@@ -93,48 +94,7 @@ void Model::begin_tile(const BeginTile& tile) {
   sheet_.begin_tile(tile.width + 2 * halo_, tile.height + 2 * halo_);
   if (halo_ > 0) densities_.begin_tile(tile, frame_);
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
-  cull_.begin_tile(tile.mode, tile.width, tile.height);
-  sets_.clear();
-  hidden_windows_.clear();
-  if (log_ != nullptr && cull_.on()) log_->tile(tile.tile) = {};
-}
-
-void Model::cull_block(const CullBlock& record) {
-  ++counters_.cull_blocks;
-  if (!cull_.on()) return;
-  const bool hidden = cull_.hidden(box_of(record));
-  ++culls_.set_tests;
-  culls_.hidden_sets += hidden ? 1 : 0;
-  log(hidden);
-  sets_.announce(record.tag, record.splats, hidden);
-}
-
-bool Model::dropped(std::uint32_t tag) {
-  if (!cull_.on()) return false;
-  const bool* hidden = sets_.next(tag);
-  if (hidden == nullptr || !*hidden) return false;
-  ++culls_.dropped;
-  return true;
-}
-
-bool Model::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) {
-  if (!cull_.on()) return false;
-  const std::int64_t lanes = config_.lanes;
-  const bool all = cull_.hidden({x, y, x + columns * lanes, y + rows * lanes});
-  ++culls_.splat_tests;
-  culls_.hidden_splats += all ? 1 : 0;
-  log(all);
-  hidden_windows_.assign(std::size_t{columns} * rows, 0);
-  if (all || hidden_windows_.size() == 1) return all;
-  for (std::size_t i = 0; i < hidden_windows_.size(); ++i) {
-    const std::int64_t left = x + static_cast<std::int64_t>(i % columns) * lanes,
-                       top = y + static_cast<std::int64_t>(i / columns) * lanes;
-    const bool one = cull_.window_hidden({left, top, left + lanes, top + lanes});
-    hidden_windows_[i] = one ? 1 : 0;
-    culls_.hidden_windows += one ? 1 : 0;
-    log(one);
-  }
-  return false;
+  cull_.begin_tile(tile);
 }
 
 template <class Observer>
@@ -144,13 +104,13 @@ void Model::splat(const SplatRecord& record, Observer& observer) {
 
 template <class Unit, class Observer>
 void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
-  if (dropped(record.tag)) return;
+  if (cull_.dropped(record.tag)) return;
   const std::uint32_t rho = unit.rho(record.set);
   const std::uint32_t extent = unit.extent(record.set);
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
   if (cull_.on()) {
     Nothing nobody;
-    if (hidden(snap_(record.x, rho, nobody).origin, snap_(record.y, rho, nobody).origin, extent / lanes,
+    if (cull_.hidden(snap_(record.x, rho, nobody).origin, snap_(record.y, rho, nobody).origin, extent / lanes,
                extent / lanes)) {
       ++counters_.splats;
       return;
@@ -168,7 +128,7 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
   std::size_t number = 0;
   for (std::uint32_t row = 0; row < extent; row += lanes) {
     for (std::uint32_t column = 0; column < extent; column += lanes) {
-      if (window_hidden(number++)) continue;
+      if (cull_.window_hidden(number++)) continue;
       unit.window(column, row, weights_, observer);
       window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }
@@ -177,11 +137,11 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
 
 template <class Observer>
 void Model::ellipse(const EllipseRecord& record, Observer& observer) {
-  if (dropped(record.tag)) return;
+  if (cull_.dropped(record.tag)) return;
   const EllipseAxis x = ellipse_axis(config_, record.x, record.windows.left);
   const EllipseAxis y = ellipse_axis(config_, record.y, record.windows.top);
   ++counters_.splats;
-  if (hidden(x.origin, y.origin, record.windows.columns, record.windows.rows)) return;
+  if (cull_.hidden(x.origin, y.origin, record.windows.columns, record.windows.rows)) return;
   if (taps_ != nullptr) {
     const std::array<std::uint32_t, 4> payload{
         static_cast<std::uint32_t>(x.origin), static_cast<std::uint32_t>(y.origin),
@@ -193,7 +153,7 @@ void Model::ellipse(const EllipseRecord& record, Observer& observer) {
   std::size_t number = 0;
   for (std::uint32_t row = 0; row < record.windows.rows * lanes; row += lanes) {
     for (std::uint32_t column = 0; column < record.windows.columns * lanes; column += lanes) {
-      if (window_hidden(number++)) continue;
+      if (cull_.window_hidden(number++)) continue;
       ellipse_.window(f, column, row, radial_, weights_, observer);
       window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }
@@ -263,7 +223,6 @@ void Model::end_sheet(Observer& observer) {
       tap(Tap::Composite, 0, x0, y0, gather(x0, y0, [&](int i, int j) { return compositor_.at(i, j).data(); }));
   });
   cull_.end_sheet();
-  if (cull_.on() && log_ != nullptr) log_->tile(tile_.tile).add_sheet(cull_.first_changed());
 }
 
 template <class Observer, class Step>

@@ -8,9 +8,7 @@
 #include "cmodel/classify/density_stage.hpp"
 #include "cmodel/composite/compositor.hpp"
 #include "cmodel/composite/pixel_out.hpp"
-#include "cmodel/cull/cull_log.hpp"
-#include "cmodel/cull/cull_sets.hpp"
-#include "cmodel/cull/cull_unit.hpp"
+#include "cmodel/cull/cull_tests.hpp"
 #include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/observers.hpp"
@@ -33,10 +31,10 @@ class Model final : public Device {
   const Counters& counters() const override { return counters_; }
 
   /// Logs the results of all cull tests from now on; null: no log. Must outlive the model.
-  void log_culls(CullLog* log) { log_ = log; }
-  const CullCounts& culls() const { return culls_; }
+  void log_culls(CullLog* log) { cull_.log(log); }
+  const CullCounts& culls() const { return cull_.counts(); }
   /// Whether a cull group with this rectangle would be hidden in the open sheet: its splats may then be left out.
-  bool would_hide(const CullBlock& set) const { return cull_.on() && cull_.hidden(box_of(set)); }
+  bool would_hide(const CullBlock& set) const { return cull_.would_hide(set); }
 
  private:
   /// `Observer` counts saturation and records ranges if requested.
@@ -52,16 +50,6 @@ class Model final : public Device {
   void ellipse(const EllipseRecord& record, Observer& observer);
   template <class Record, class Observer>
   void window(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
-  void cull_block(const CullBlock& record);
-  /// Whether the next splat belongs to a hidden cull group; counts it as dropped.
-  bool dropped(std::uint32_t tag);
-  /// Tests a splat: columns x rows windows from pixel (x,y) on. If it is not hidden, tests each window, too.
-  bool hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
-  /// The result of one window, after hidden() returned false.
-  bool window_hidden(std::size_t number) const { return !hidden_windows_.empty() && hidden_windows_[number] != 0; }
-  void log(bool hidden) {
-    if (log_ != nullptr) log_->tile(tile_.tile).add(hidden);
-  }
   /// Modes 4 and 5: composites the window's products at once (N-6-12).
   template <class Record, class Observer>
   void samples(const Record& record, std::int32_t x, std::int32_t y, Observer& observer);
@@ -91,11 +79,7 @@ class Model final : public Device {
   DensityStage densities_;
   Compositor compositor_;
   PixelOut pixel_out_;
-  CullUnit cull_;
-  CullSets<bool> sets_;  ///< cull groups, each with whether it is hidden
-  CullCounts culls_;
-  CullLog* log_ = nullptr;
-  std::vector<std::uint8_t> hidden_windows_;  ///< of the current splat; empty if no test was made
+  CullTests cull_;
   Counters counters_;
   PixelSink& pixels_;
   TapSink* taps_;

@@ -95,6 +95,7 @@ void Model::begin_tile(const BeginTile& tile) {
   if (halo_ > 0) densities_.begin_tile(tile, frame_);
   compositor_.begin_tile(tile.mode, tile.width, tile.height);
   cull_.begin_tile(tile);
+  if (terminations_ != nullptr) terminations_->reset(tile.x, tile.y, tile.width, tile.height);
 }
 
 template <class Observer>
@@ -111,7 +112,7 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
   if (cull_.on()) {
     Nothing nobody;
     if (cull_.hidden(snap_(record.x, rho, nobody).origin, snap_(record.y, rho, nobody).origin, extent / lanes,
-               extent / lanes)) {
+                     extent / lanes)) {
       ++counters_.splats;
       return;
     }
@@ -216,7 +217,11 @@ void Model::end_sheet(Observer& observer) {
     const int x0 = bx * config_.lanes, x1 = std::min(tile_.width, x0 + config_.lanes);
     const int y0 = by * config_.lanes, y1 = std::min(tile_.height, y0 + config_.lanes);
     for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) compositor_.step(sums(x, y), x, y, counters_, observer);
+      for (int x = x0; x < x1; ++x) {
+        compositor_.step(sums(x, y), x, y, counters_, observer);
+        if (terminations_ != nullptr && compositor_.frozen(x, y))
+          terminations_->note(tile_.x + x, tile_.y + y, sheet_number_);
+      }
     }
     cull_.composited(bx, by, [&](int x, int y) { return compositor_.frozen(x, y); });
     if (taps_ != nullptr)

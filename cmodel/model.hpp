@@ -9,6 +9,7 @@
 #include "cmodel/composite/compositor.hpp"
 #include "cmodel/composite/pixel_out.hpp"
 #include "cmodel/cull/cull_tests.hpp"
+#include "cmodel/cull/terminations.hpp"
 #include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/observers.hpp"
@@ -32,6 +33,8 @@ class Model final : public Device {
 
   /// Logs the results of all cull tests from now on; null: no log. Must outlive the model.
   void log_culls(CullLog* log) { cull_.log(log); }
+  /// Notes terminated pixels of sheets that are composited (modes 0 and 1) from now on. Must outlive the model.
+  void note_terminations(Terminations* map) { terminations_ = map; }
   const CullCounts& culls() const { return cull_.counts(); }
   /// Whether a cull group with this rectangle would be hidden in the open sheet: its splats may then be left out.
   bool would_hide(const CullBlock& set) const { return cull_.would_hide(set); }
@@ -80,6 +83,7 @@ class Model final : public Device {
   Compositor compositor_;
   PixelOut pixel_out_;
   CullTests cull_;
+  Terminations* terminations_ = nullptr;
   Counters counters_;
   PixelSink& pixels_;
   TapSink* taps_;

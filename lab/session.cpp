@@ -247,7 +247,8 @@ Json Session::cycles(const Json& json) {
   cmodel::CycleOptions options;
   driver::CullRun culls;
   if (config.culls()) {
-    culls = driver::run_culls(driver::CompiledFrame(scene_of(request), config, 1), 1, {});
+    culls = driver::run_culls(driver::CompiledFrame(scene_of(request), config, 1),
+                              driver::terminations(scene_of(request), config));
     options.culls = &culls.log;
   }
   cmodel::CycleModel model(config, cmodel::StreamScope::Subset, options);

@@ -81,7 +81,7 @@ struct CyclesResult {
   std::string scene;                   ///< its summary; empty for a stream
   std::string stream;                  ///< its file; empty for a scene
   cmodel::BeginFrame header;           ///< of a stream
-  std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share()
+  std::optional<double> hidden_share;  ///< of a scene's splats, see hidden_share(); a device that culls has `culls`
   cmodel::Config config;
   std::string input, ready;  ///< patterns
   int seed = 1;
@@ -222,9 +222,10 @@ void check_culling(const CyclesArguments& arguments, const cmodel::Config& confi
     refuse("--cull-table", "3-D Gaussians have no cull groups", "use a volume, or leave it out");
   if (arguments.fetch >= 0 && !config.culls() && !arguments.cull_table)
     refuse("--fetch", "requires culling, and cull.map is off", "add --set cull.map=block");
-  if (arguments.fetch >= 0 && arguments.scaling.any())
-    refuse("--fetch", "cannot be combined with --devices: a shared link sends every beat",
-           "leave --fetch or --devices out");
+  if (arguments.fetch >= 0 && arguments.scaling.bytes_per_cycle.value_or(0) > 0)
+    refuse("--fetch",
+           "cannot be combined with --bytes-per-cycle: each device fetches for itself, without a shared link",
+           "leave --fetch or --bytes-per-cycle out");
 }
 
 ExitCode run(const CyclesArguments& arguments) {
@@ -335,11 +336,12 @@ ExitCode run(const CyclesArguments& arguments) {
     const auto scene = build(arguments.scene);
     output.remark(remarks(scene));
     result.scene = summary(scene);
-    result.hidden_share = hidden_share(scene, config, arguments.common.threads);
+    if (!config.culls()) result.hidden_share = hidden_share(scene, config, arguments.common.threads);
     if (config.culls()) {
       ProgressBar bar("culling", watching(arguments.common));
-      culls = driver::run_culls(driver::CompiledFrame(scene, config, arguments.common.threads),
-                                arguments.common.threads, bar.callback());
+      const int threads = arguments.common.threads;
+      culls = driver::run_culls(driver::CompiledFrame(scene, config, threads),
+                                driver::terminations(scene, config, threads), threads, bar.callback());
     }
     if (arguments.cull_table) {
       ProgressBar bar("cull table", watching(arguments.common));

@@ -8,6 +8,7 @@
 
 #include "cmodel/classify/density_stage.hpp"
 #include "cmodel/composite/compositor.hpp"
+#include "cmodel/cull/terminations.hpp"
 #include "cmodel/fast/ellipse_kernel.hpp"
 #include "cmodel/fast/fast_plan.hpp"
 #include "cmodel/fast/sample_kernel.hpp"
@@ -39,6 +40,7 @@ struct FrameTables {
   bool tints() const { return densities && densities->pattern().loaded(); }
   BeginFrame frame{};
   int reach = 0;  ///< largest footprint extent plus what vectors write beyond it, pixels
+  Terminations* terminations = nullptr;  ///< filled in for sheets that are composited (modes 0 and 1), if not null
 };
 
 /// Made of the beats before the first tile: begin_frame and the tables. Empty if the frame needs the plain unit;

@@ -407,7 +407,10 @@ void TileUnit<T>::composite(int bx, int by) {
       const Slab slab = tile_.mode == Mode::Exponential ? tables_.opacity.exponential(sums, counting)
                                                         : tables_.opacity.additive(sums, counting);
       lane_.composite(slab, *pixel, counting);
-      all_frozen = all_frozen && lane_.frozen(*pixel);
+      const bool ends = lane_.frozen(*pixel);
+      all_frozen = all_frozen && ends;
+      if (ends && !frozen && tables_.terminations != nullptr)
+        tables_.terminations->note(tile_.x + x, tile_.y + y, sheet_number_);
     }
   }
   sheet_.clear(x0, y0, x1, y1);

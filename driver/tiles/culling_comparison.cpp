@@ -9,11 +9,12 @@ namespace fastsplat::driver {
 std::vector<CullRow> compare_culling(const scene::Scene& scene, const cmodel::Config& config, std::uint64_t latency,
                                      int threads, const Progress& progress) {
   std::vector<CullRow> rows;
+  const cmodel::Terminations known = terminations(scene, config, threads);
   for (const auto map : {cmodel::CullMap::Off, cmodel::CullMap::Block, cmodel::CullMap::Pixel}) {
     cmodel::Config device = config;
     device.cull_map = static_cast<int>(map);
     const CompiledFrame compiled(scene, device, threads);
-    const CullRun run = run_culls(compiled, threads, progress);
+    const CullRun run = run_culls(compiled, known, threads, progress);
     cmodel::CycleOptions options;
     if (device.culls()) options.culls = &run.log;
     cmodel::CycleModel sent(device, cmodel::StreamScope::Subset, options);

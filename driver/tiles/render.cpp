@@ -38,8 +38,10 @@ struct TileResult {
   UnitReport units;
 };
 
-TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink& pixels) {
+TileResult draw_plain(const CompiledFrame& compiled, int tile, cmodel::PixelSink& pixels,
+                      cmodel::Terminations* terminations) {
   cmodel::Model device(compiled.config(), cmodel::StreamScope::Subset, pixels);
+  device.note_terminations(terminations);
   device.consume(compiled.preamble());
   TileResult out;
   out.report = compiled.emit_tile(
@@ -86,14 +88,14 @@ std::optional<TileResult> whole_tile(std::span<const BandResult> bands) {
 }
 
 /// Tiles are independent: each has its own device, as with several chips.
-std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, int threads, cmodel::PixelSink& pixels,
-                                       const OnTile& on_tile) {
+std::vector<TileResult> draw_all_plain(const CompiledFrame& compiled, const RenderOptions& options,
+                                       cmodel::PixelSink& pixels, const OnTile& on_tile) {
   std::vector<TileResult> results(static_cast<std::size_t>(compiled.grid().count()));
   const std::vector<std::uint64_t> bands = compiled.work();
   std::vector<std::uint64_t> work(results.size());
   for (std::size_t i = 0; i < bands.size(); ++i) work[i / static_cast<std::size_t>(compiled.bands())] += bands[i];
-  parallel_for(work, threads, [&](std::size_t tile) {
-    results[tile] = draw_plain(compiled, static_cast<int>(tile), pixels);
+  parallel_for(work, options.threads, [&](std::size_t tile) {
+    results[tile] = draw_plain(compiled, static_cast<int>(tile), pixels, options.terminations);
     on_tile();
   });
   return results;
@@ -114,7 +116,7 @@ std::vector<TileResult> draw_all_fast(const CompiledFrame& compiled, const cmode
                                        : draw_fast<std::uint32_t>(compiled, tables, t, band, pixels);
     if (++ended[tile] < each) return;
     const auto whole = whole_tile(std::span(bands).subspan(tile * each, each));
-    results[tile] = whole ? *whole : draw_plain(compiled, t, pixels);
+    results[tile] = whole ? *whole : draw_plain(compiled, t, pixels, tables.terminations);
     if (!whole) results[tile].units.redone = 1;
     on_tile();
   });
@@ -139,8 +141,9 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
   const cmodel::fast::FrameNeeds needs{.ellipses = draws_ellipses(scene, config),
                                        .samples = every_sample(scene.description),
                                        .tints = has_pattern(scene.description) && !holds_densities(scene.description)};
-  const auto tables = fast ? cmodel::fast::frame_tables(config, head.preamble, needs, &why_plain)
-                           : std::optional<cmodel::fast::FrameTables>{};
+  auto tables = fast ? cmodel::fast::frame_tables(config, head.preamble, needs, &why_plain)
+                     : std::optional<cmodel::fast::FrameTables>{};
+  if (tables) tables->terminations = options.terminations;
   if (tables && !options.counters && draws_pictures(scene, head)) {
     auto picture = draw_picture(scene, head, *tables, band_rows, options.threads, options.progress);
     if (picture) {
@@ -150,6 +153,8 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
               .units = {.vectors = cmodel::fast::vector_target()},
               .counted = false};
     }
+    if (options.terminations != nullptr)
+      options.terminations->reset(0, 0, head.grid.image_width, head.grid.image_height);
   }
   const CompiledFrame compiled(scene, std::move(head), options.threads, band_rows);
   FrameSink frame(config, compiled.grid().image_width, compiled.grid().image_height);
@@ -158,7 +163,7 @@ DeviceRender render(const scene::Scene& scene, const cmodel::Config& config, con
     if (options.progress) options.progress(done.fetch_add(1) + 1, static_cast<std::size_t>(compiled.grid().count()));
   };
   const std::vector<TileResult> results = tables ? draw_all_fast(compiled, *tables, options.threads, frame, on_tile)
-                                                 : draw_all_plain(compiled, options.threads, frame, on_tile);
+                                                 : draw_all_plain(compiled, options, frame, on_tile);
 
   DeviceRender out;
   out.report = compiled.report();

@@ -8,6 +8,7 @@
 
 #include "base/image.hpp"
 #include "base/progress.hpp"
+#include "cmodel/cull/terminations.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/counters.hpp"
 #include "cmodel/stream/frame.hpp"
@@ -30,6 +31,8 @@ struct RenderOptions {
   bool counters = true;
   int band_rows = 0;  ///< for the fast unit, rounded up to whole blocks; 0: automatic. Changes only hidden_splats.
   Progress progress = {};
+  /// Of the picture's size, all open: receives the sheets after which pixels are terminated (modes 0 and 1).
+  cmodel::Terminations* terminations = nullptr;
 };
 
 /// Which unit drew the tiles of a frame.

@@ -37,6 +37,17 @@ cmodel::ClusterOptions cluster_options(int devices, const ScalingFlags& flags, c
 
 }  // namespace
 
+void declare_clock(Options& options, std::optional<double>& to, const char* help) {
+  options.value(
+      "--clock",
+      [](std::string& text) -> std::string {
+        const auto number = number_from(text);
+        if (number && *number > 0.0 && *number <= kMostMhz) return {};
+        return fmt::format("expected a number above 0, up to {}, got '{}'", kMostMhz, text);
+      },
+      [&to](const std::string& text) { to = *number_from(text); }, "MHZ", help);
+}
+
 void declare(Options& options, ScalingFlags& to) {
   options.value(
       "--devices",
@@ -50,15 +61,7 @@ void declare(Options& options, ScalingFlags& to) {
   static const std::string bytes_help = fmt::format(
       "bandwidth of the stream to all devices together; a beat has {} bytes; 0: no limit", cmodel::kBeatBytes);
   options.integer("--bytes-per-cycle", to.bytes_per_cycle, 0, 65536, "B", bytes_help.c_str());
-  options.value(
-      "--clock",
-      [](std::string& text) -> std::string {
-        const auto number = number_from(text);
-        if (number && *number > 0.0 && *number <= kMostMhz) return {};
-        return fmt::format("expected a number above 0, up to {}, got '{}'", kMostMhz, text);
-      },
-      [&to](const std::string& text) { to.clock = *number_from(text); }, "MHZ",
-      "clock of the devices; prints time and frames per second");
+  declare_clock(options, to.clock, "clock of the devices; prints time and frames per second");
 }
 
 void check(const ScalingFlags& flags, const std::string& timeline) {
@@ -87,6 +90,7 @@ ScalingRun::ScalingRun(const cmodel::Config& config, cmodel::StreamScope scope, 
     : config_(config),
       clock_(flags.clock),
       bytes_per_cycle_(static_cast<std::uint64_t>(flags.bytes_per_cycle.value_or(0))),
+      fetches_(options.fetch.has_value()),
       single_asked_for_(flags.devices.empty() || flags.devices.front() == 1) {
   clusters_.emplace_back(config, scope, cluster_options(1, flags, options));
   for (const int devices : flags.devices) {
@@ -115,6 +119,7 @@ FrameScaling ScalingRun::scaling(const cmodel::CycleCluster& cluster) const {
   out.each = cluster.devices();
   out.devices = out.each.size();
   out.bytes_per_cycle = bytes_per_cycle_;
+  out.fetches = fetches_;
   out.clock = clock_;
   out.frame = cluster.frame_cycles();
   out.one_device = clusters_.front().frame_cycles();

@@ -25,6 +25,8 @@ struct ScalingFlags {
   bool any() const { return !devices.empty() || bytes_per_cycle || clock; }
 };
 
+/// --clock MHZ; `help` says what it is for.
+void declare_clock(Options& options, std::optional<double>& to, const char* help);
 void declare(Options& options, ScalingFlags& to);
 /// UserError (Usage) if a timeline is requested for several devices. `timeline`: the flag that requests it, empty for
 /// none.
@@ -33,6 +35,7 @@ void check(const ScalingFlags& flags, const std::string& timeline);
 /// Figures of one frame on `devices` devices. Cycles count from reset; shares are summed over the devices.
 struct FrameScaling {
   std::uint64_t devices = 1, bytes_per_cycle = 0;  ///< 0: no limit
+  bool fetches = false;                            ///< each device reads memory for itself
   std::optional<double> clock;                     ///< MHz
   std::uint64_t frame = 0, one_device = 0;         ///< cycles: of this frame, and on one device with the same link
   std::uint64_t bytes_in = 0, bytes_out = 0;
@@ -73,7 +76,7 @@ class ScalingRun final : public cmodel::Device {
   cmodel::Config config_;
   std::optional<double> clock_;
   std::uint64_t bytes_per_cycle_;
-  bool single_asked_for_;
+  bool fetches_, single_asked_for_;
   std::deque<cmodel::CycleCluster> clusters_;  ///< the first has one device
 };
 

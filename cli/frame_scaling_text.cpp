@@ -120,16 +120,18 @@ std::string bytes_text(const FrameScaling& scaling, const char* name, std::uint6
 }  // namespace
 
 std::string to_text(const FrameScaling& scaling) {
-  const std::string link =
-      scaling.bytes_per_cycle == 0 ? "without limit" : fmt::format("of {} bytes a cycle", scaling.bytes_per_cycle);
-  std::string text = fmt::format("{} on one link {}\n", counted(scaling.devices, "device"), link);
+  const std::string link = scaling.fetches ? "each with a source that fetches"
+                           : scaling.bytes_per_cycle == 0
+                               ? "on one link without limit"
+                               : fmt::format("on one link of {} bytes a cycle", scaling.bytes_per_cycle);
+  std::string text = fmt::format("{} {}\n", counted(scaling.devices, "device"), link);
   text += fmt::format("  {:<14}{:>18} cycles from reset to the last pixel", "frame", grouped(scaling.frame));
   if (scaling.clock)
     text += fmt::format(", {:.4f} ms, {:.2f} fps at {:g} MHz", milliseconds(scaling), frames_per_second(scaling),
                         *scaling.clock);
   text +=
       "\n" + bytes_text(scaling, "stream in", scaling.bytes_in) + bytes_text(scaling, "pixels out", scaling.bytes_out);
-  text += fmt::format("  {:<14}{:>18.3f} over one device on this link ({} cycles)\n", "speed-up", scaling.speed_up(),
+  text += fmt::format("  {:<14}{:>18.3f} over one device like these ({} cycles)\n", "speed-up", scaling.speed_up(),
                       grouped(scaling.one_device));
   text +=
       fmt::format("  {:<14}{:>18.3f} % of all devices' cycles are work\n", "efficiency", 100.0 * scaling.efficiency());
@@ -152,12 +154,16 @@ std::string to_text(const FrameScaling& scaling) {
 }
 
 std::string to_table(const std::vector<FrameScaling>& scalings) {
+  const bool clocked = scalings.front().clock.has_value();
   std::string text =
-      fmt::format("{:>7}{:>18}{:>11}{:>13}  {}\n", "devices", "frame", "speed-up", "efficiency", "limit");
+      fmt::format("{:>7}{:>18}{}{:>11}{:>13}  {}\n", "devices", "frame",
+                  clocked ? fmt::format("{:>12}{:>11}", "ms", "fps") : "", "speed-up", "efficiency", "limit");
   for (const auto& scaling : scalings) {
     const auto [name, cycles] = limit(scaling);
-    text += fmt::format("{:>7}{:>18}{:>11.3f}{:>11.1f} %  {}, {:.1f} %\n", scaling.devices, grouped(scaling.frame),
-                        scaling.speed_up(), 100.0 * scaling.efficiency(), name,
+    const std::string rate =
+        clocked ? fmt::format("{:>12.4f}{:>11.2f}", milliseconds(scaling), frames_per_second(scaling)) : "";
+    text += fmt::format("{:>7}{:>18}{}{:>11.3f}{:>11.1f} %  {}, {:.1f} %\n", scaling.devices, grouped(scaling.frame),
+                        rate, scaling.speed_up(), 100.0 * scaling.efficiency(), name,
                         100.0 * ratio(cycles, scaling.device_cycles()));
   }
   return text;

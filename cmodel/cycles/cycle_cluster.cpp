@@ -18,7 +18,9 @@ bool is(const Record* record) {
 }  // namespace
 
 CycleCluster::CycleCluster(const Config& config, StreamScope scope, const ClusterOptions& options)
-    : decode_(config, scope), link_(options.bytes_per_cycle) {
+    : decode_(config, scope),
+      fetches_(options.device.fetch.has_value()),
+      link_(fetches_ ? 0 : options.bytes_per_cycle) {
   for (int i = 0; i < options.devices; ++i)
     devices_.push_back(std::make_unique<QueuedDevice>(config, options.queue_beats, options.device));
   last_ = devices_.size() - 1;
@@ -106,6 +108,13 @@ std::uint64_t CycleCluster::frame_cycles() const {
   std::uint64_t end = 0;
   for (const DeviceCycles& device : done_) end = std::max(end, device.end);
   return end;
+}
+
+std::uint64_t CycleCluster::beats_in() const {
+  if (!fetches_) return link_.beats();
+  std::uint64_t beats = 0;
+  for (const DeviceCycles& device : done_) beats += device.sent_beats;
+  return beats;
 }
 
 std::uint64_t CycleCluster::pixel_beats() const {

@@ -16,7 +16,7 @@ namespace fastsplat::cmodel {
 
 struct ClusterOptions {
   int devices = 1;                    ///< >= 1
-  std::uint64_t bytes_per_cycle = 0;  ///< of the link, in all; 0: no limit
+  std::uint64_t bytes_per_cycle = 0;  ///< of the link, in all; 0: no limit, as with device.fetch
   std::uint64_t queue_beats = 512;    ///< before each device's decode; >= 1
   CycleOptions device{};              ///< of each device; taps and spans receive events of all devices mixed
 };
@@ -40,8 +40,8 @@ class CycleCluster final : public Device {
   const std::vector<DeviceCycles>& devices() const { return done_; }
   /// Cycles from reset until all devices are done.
   std::uint64_t frame_cycles() const;
-  /// Beats the link carried; a broadcast one counts once.
-  std::uint64_t beats_in() const { return link_.beats(); }
+  /// Beats the link carried; a broadcast one counts once. Of devices that fetch, beats that were fetched.
+  std::uint64_t beats_in() const;
   /// Beats of pixels, P pixels each, of all devices.
   std::uint64_t pixel_beats() const;
 
@@ -58,6 +58,7 @@ class CycleCluster final : public Device {
   std::uint64_t wake() const;
 
   StreamDecode decode_;
+  bool fetches_;  ///< each device for itself: the link has no limit
   StreamLink link_;
   std::vector<std::unique_ptr<QueuedDevice>> devices_;
   std::size_t last_ = 0;                   ///< device served last

@@ -62,7 +62,8 @@ DeviceCycles QueuedDevice::cycles() const {
           .idle = model_.idle_cycles(),
           .end = model_.end_cycle(),
           .longest_tile = longest_tile_,
-          .pixel_beats = model_.pixel_beats()};
+          .pixel_beats = model_.pixel_beats(),
+          .sent_beats = model_.sent_beats()};
 }
 
 }  // namespace fastsplat::cmodel

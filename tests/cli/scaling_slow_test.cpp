@@ -64,6 +64,20 @@ TEST(Scaling, OneDeviceWithoutLimitIsThePlainCommand) {
   EXPECT_GE(counts, 1000);
 }
 
+TEST(Scaling, DevicesThatFetchShareNoLink) {
+  const Words words{"--volume",       "shells:32", "--size",        "64",      "--config", "small", "--set",
+                    "cull.map=block", "--set",     "tile.width=16", "--fetch", "40"};
+  const auto plain = result_of(words), one = result_of(words + Words{"--devices", "1"}),
+             four = result_of(words + Words{"--devices", "4"});
+  EXPECT_EQ(plain["cycles"], one["cycles"]);
+  EXPECT_EQ(plain["culls"], four["culls"]);
+  EXPECT_GT(four["scaling"]["speed_up"].get<double>(), 1.5);
+  // Each fetches the tables.
+  EXPECT_GT(four["scaling"]["bytes_in"].get<double>(), one["scaling"]["bytes_in"].get<double>());
+  expect_error(fastsplat(Words{"cycles"} + words + Words{"--bytes-per-cycle", "40"}), 2,
+               {"--fetch", "--bytes-per-cycle", "for itself"});
+}
+
 TEST(Scaling, ARecordedStreamIsItsScene) {
   const TempFolder folder;
   expect_success(fastsplat(Words{"stream", "record"} + kScene + Words{"-o", folder / "s.fss"}));

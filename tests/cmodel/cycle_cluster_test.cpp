@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "cmodel/cycles/cluster_account.hpp"
+#include "cmodel/model.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/cmodel/plain_cluster_helper.hpp"
 #include "tests/cmodel/random_stream_helper.hpp"
@@ -38,7 +39,7 @@ struct Pieces {
 };
 
 Pieces random_pieces(const cmodel::Config& config, Random& random, std::uint64_t splats) {
-  const auto stream = random_stream(symbols_of(config), random, splats);
+  const auto stream = random_stream(symbols_of(config), random, splats, SetOrder::Whole);
   Pieces out;
   out.whole = to_beats(stream.bytes);
   const std::size_t first = first_tile_beat(stream.bytes);
@@ -242,6 +243,44 @@ TEST(Cluster, SharesAreAllCyclesAndNoFrameIsBelowTheRoofline) {
               static_cast<unsigned long long>(stream_rules));
   EXPECT_EQ(frames, 60);
   EXPECT_GT(stream_rules, 0U);
+}
+
+/// Each with a source of its own, which leaves hidden cull groups out.
+TEST(Cluster, DevicesThatFetchCountTheirOwnTiles) {
+  Random random(seed_or(77));
+  Compared compared;
+  std::uint64_t all = 0, sent = 0;
+  for (const char* name : {"tiny", "small", "base"}) {
+    cmodel::Config config = named_config(name);
+    config.cull_map = static_cast<int>(cmodel::CullMap::Block);
+    const Pieces pieces = random_pieces(config, random, 900);
+    cmodel::NullPixels nowhere;
+    cmodel::CullLog log;
+    cmodel::Model model(config, StreamScope::Whole, nowhere);
+    model.log_culls(&log);
+    model.consume(pieces.whole);
+    model.finish();
+    const cmodel::CycleOptions options{.culls = &log, .fetch = cmodel::Fetch{12}};
+    for (const int devices : {1, 2, 3, 8}) {
+      const auto cluster = run(config, pieces, {.devices = devices, .device = options}, false);
+      std::uint64_t beats = 0;
+      for (const auto& device : cluster.devices()) {
+        cmodel::CycleModel alone(config, StreamScope::Subset, options);
+        alone.consume(pieces.preamble);
+        for (const std::uint32_t tile : device.tiles) alone.consume(pieces.tiles.at(tile));
+        alone.finish();
+        compared.same(device, alone);
+        beats += alone.sent_beats();
+      }
+      compared.same(cluster.beats_in(), beats, "beats");
+      all += pieces.whole.size() - 1 + static_cast<std::uint64_t>(devices - 1) * pieces.preamble.size();
+      sent += beats;
+    }
+  }
+  std::printf("[figure] beats fetched = %llu of %llu\n", static_cast<unsigned long long>(sent),
+              static_cast<unsigned long long>(all));
+  EXPECT_LT(sent, all);
+  compared.figure("counts of devices that fetch compared", 800);
 }
 
 TEST(Cluster, AStreamThatBreaksARuleIsRefusedAsByOneDevice) {

@@ -2,6 +2,7 @@
 #include "analysis/errors/propose.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "analysis/provenance.hpp"
@@ -46,52 +47,102 @@ Journal::Entry Simulator::entry(const cmodel::Config& config, std::size_t scene,
   return entry;
 }
 
-Journal::Entry Simulator::worst(const cmodel::Config& config, const Target& target) {
-  Journal::Entry out = Fidelity{};
+Journal::Entry Simulator::worst(const cmodel::Config& config) {
+  Fidelity out;
   for (std::size_t i = 0; i < scenes_.size(); ++i) {
     const Journal::Entry one = entry(config, i, false);
     if (!one) return std::nullopt;
-    if (target.excess(*one) >= target.excess(*out)) out = one;
+    out = {std::max(out.rms_lsb, one->rms_lsb), std::max(out.max_lsb, one->max_lsb)};
   }
   return out;
 }
 
-Journal::Entry Simulator::worst_drawn(const cmodel::Config& config, const Target& target) {
+Journal::Entry Simulator::worst_drawn(const cmodel::Config& config) {
   for (std::size_t i = 0; i < scenes_.size(); ++i) entry(config, i, true);
-  return worst(config, target);
+  return worst(config);
 }
 
-bool Simulator::meets(const cmodel::Config& config, const Target& target) {
+bool Simulator::meets(const cmodel::Config& config, const Targets& targets) {
   for (std::size_t i = 0; i < scenes_.size(); ++i) {
     const std::size_t scene = (hardest_ + i) % scenes_.size();
     const Journal::Entry one = entry(config, scene, false);
-    if (one && target.met(*one)) continue;
+    if (one && targets.met(*one)) continue;
     hardest_ = scene;
     return false;
   }
   return true;
 }
 
+namespace {
+
+/// Widths and arrangement in turn: the area of a bit depends on the array and the number of devices, and the best of
+/// these on the widths. Ends where neither changes the other.
+constexpr int kMostRounds = 6;
+
+/// Nothing to search: any picture is good enough.
+SearchOutcome as_it_is(const cmodel::Config& config) {
+  SearchOutcome out;
+  out.met = true;
+  out.best = out.start = config;
+  out.verdict = {true, 0.0};
+  return out;
+}
+
+}  // namespace
+
 Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::string> names, const cmodel::Config& from,
-                 const Target& target, Journal& journal, int threads, const Progress& progress) {
+                 const Targets& targets, double clock_mhz, Journal& journal, int threads, const Progress& progress) {
   Simulator simulate(scenes, journal, threads);
   Proposal out;
-  out.target = target;
+  out.targets = targets;
   out.from = from;
   out.scenes = std::move(names);
-  out.error_from = simulate.worst_drawn(from, target);
+  out.error_from = simulate.worst_drawn(from);
+  const bool other_pixels = targets.fps && std::ranges::any_of(scenes, arrangement_changes_pixels);
   const Evaluate evaluate = [&](const cmodel::Config& config) {
-    const auto entry = simulate.worst(config, target);
-    return entry ? Verdict{target.met(*entry), target.excess(*entry)} : Verdict{};
+    const auto entry = simulate.worst(config);
+    return entry ? Verdict{targets.met(*entry), targets.excess(*entry)} : Verdict{};
   };
-  Search search(
-      from, evaluate, [](const cmodel::Config& config) { return cost(config).total(); }, progress,
-      [&](const cmodel::Config& config) { return simulate.meets(config, target); });
-  out.search = search.run();
-  out.error = simulate.worst(out.search.best, target);
-  if (out.search.geometry) out.error_geometry = simulate.worst(*out.search.geometry, target);
+  const auto search = [&](const cmodel::Config& begin, const Price& price) {
+    if (targets.pictures.empty()) return as_it_is(begin);
+    return Search(begin, evaluate, price, progress,
+                  [&](const cmodel::Config& config) { return simulate.meets(config, targets); })
+        .run();
+  };
+  if (!targets.fps) {
+    out.search = search(from, [](const cmodel::Config& config) { return cost(config).total(); });
+    out.config = out.search.best;
+  } else {
+    SpeedSearch speeds(scenes, clock_mhz, threads);
+    ProposedSpeed& speed = out.speed.emplace();
+    speed.target = {*targets.fps, clock_mhz};
+    speed.from = speeds.least_devices(from, speed_keys(from), *targets.fps);
+    out.search = as_it_is(from);
+    speed.proposed = speeds.cheapest(from, *targets.fps);
+    for (int round = 0; round < kMostRounds && speed.proposed; ++round) {
+      const SpeedKeys keys = speed.proposed->keys;
+      const auto begin = other_pixels ? arranged(from, keys) : from;
+      out.search = search(begin.value_or(from), [&](const cmodel::Config& config) {
+        const auto device = arranged(config, keys);
+        return device ? area(*device).equivalent_luts() : std::numeric_limits<double>::infinity();
+      });
+      if (!out.search.met) break;
+      speed.proposed = speeds.cheapest(out.search.best, *targets.fps);
+      if (speed.proposed && speed.proposed->keys == keys) break;
+    }
+    if (out.search.met && speed.proposed) {
+      for (const double rate : {0.5 * *targets.fps, 2.0 * *targets.fps}) {
+        if (const auto other = speeds.cheapest(out.search.best, rate)) speed.others.emplace_back(rate, *other);
+      }
+    }
+    out.config = out.search.best;
+    if (speed.proposed) out.config = arranged(out.search.best, speed.proposed->keys).value_or(out.config);
+    speed.counted = speeds.counted();
+  }
+  out.error = simulate.worst(other_pixels ? out.config : out.search.best);
+  if (out.search.geometry) out.error_geometry = simulate.worst(*out.search.geometry);
   out.cost_from = cost(from);
-  out.cost = cost(out.search.best);
+  out.cost = cost(out.config);
   out.simulated = simulate.simulated();
   out.recalled = simulate.recalled();
   return out;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "analysis/compare.hpp"
 #include "analysis/error_values.hpp"
@@ -17,10 +19,12 @@ namespace {
 
 constexpr int kBits = 8;
 
+constexpr const char* kExpected = "psnr>=DB, max<=LSB, rms<=LSB or fps>=RATE with a number above 0";
+
 [[noreturn]] void refuse(const std::string& text, const char* what) {
   throw_usage({.where = "--target",
                .what = what,
-               .expected = "psnr>=DB, max<=LSB or rms<=LSB with a number above 0",
+               .expected = kExpected,
                .got = "'" + text + "'",
                .fix = "for example --target 'psnr>=50' (quote it: the shell interprets > and <)"});
 }
@@ -76,21 +80,63 @@ std::string Target::reached(const Fidelity& of) const {
   return fmt::format("RMS {:.4g} LSB8", of.rms_lsb);
 }
 
-Target parse_target(const std::string& text) {
+bool Targets::met(const Fidelity& of) const {
+  return std::ranges::all_of(pictures, [&](const Target& each) { return each.met(of); });
+}
+
+double Targets::excess(const Fidelity& of) const {
+  double most = 0.0;
+  for (const Target& each : pictures) most = std::max(most, each.excess(of));
+  return most;
+}
+
+std::string Targets::text() const {
+  std::string out;
+  for (const Target& each : pictures) out += (out.empty() ? "" : ", ") + each.text;
+  if (fps) out += (out.empty() ? "" : ", ") + fmt::format("fps>={:g}", *fps);
+  return out;
+}
+
+std::string Targets::reached(const Fidelity& of) const {
+  std::string out;
+  for (const Target& each : pictures) out += (out.empty() ? "" : ", ") + each.reached(of);
+  return out;
+}
+
+Targets parse_targets(const std::vector<std::string>& texts) {
   struct Kind {
     const char* start;
-    Target::Figure figure;
+    std::optional<Target::Figure> figure;
   };
-  for (const auto& [start, figure] :
-       {Kind{"psnr>=", Target::Figure::Psnr}, {"max<=", Target::Figure::Max}, {"rms<=", Target::Figure::Rms}}) {
-    if (!text.starts_with(start)) continue;
-    const auto limit = number_from(std::string_view(text).substr(std::string_view(start).size()));
-    if (!limit || !(*limit > 0.0)) refuse(text, "the limit is not a number above 0");
-    if (figure == Target::Figure::Psnr && *limit > 300.0)
-      refuse(text, "the limit exceeds the precision of float pictures");
-    return {figure, *limit, text};
+  if (texts.empty()) {
+    throw_usage({.where = "--target",
+                 .what = "is required",
+                 .expected = kExpected,
+                 .got = {},
+                 .fix = "for example --target 'psnr>=50' (quote it: the shell interprets > and <)"});
   }
-  refuse(text, "not a target");
+  Targets out;
+  std::set<std::string> seen;
+  for (const std::string& text : texts) {
+    bool known = false;
+    for (const auto& [start, figure] : {Kind{"psnr>=", Target::Figure::Psnr}, Kind{"max<=", Target::Figure::Max},
+                                        Kind{"rms<=", Target::Figure::Rms}, Kind{"fps>=", {}}}) {
+      if (!text.starts_with(start)) continue;
+      known = true;
+      if (!seen.insert(start).second) refuse(text, "a second target of the same figure");
+      const auto limit = number_from(std::string_view(text).substr(std::string_view(start).size()));
+      if (!limit || !(*limit > 0.0)) refuse(text, "the limit is not a number above 0");
+      if (figure == Target::Figure::Psnr && *limit > 300.0)
+        refuse(text, "the limit exceeds the precision of float pictures");
+      if (figure) {
+        out.pictures.push_back({*figure, *limit, text});
+      } else {
+        out.fps = *limit;
+      }
+    }
+    if (!known) refuse(text, "not a target");
+  }
+  return out;
 }
 
 }  // namespace fastsplat::analysis

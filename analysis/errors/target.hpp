@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How good a picture has to be: "psnr>=50", "max<=1", "rms<=0.1"; in LSB of 8 bits, as compare counts
-// (docs/compare.md).
+// (docs/compare.md). How fast it has to be drawn: "fps>=60".
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/image.hpp"
 
@@ -30,7 +32,19 @@ struct Target {
   std::string reached(const Fidelity& of) const;
 };
 
-/// Throws UserError (Usage) that names --target.
-Target parse_target(const std::string& text);
+/// Targets that hold together.
+struct Targets {
+  std::vector<Target> pictures;  ///< empty: any picture is good enough
+  std::optional<double> fps;     ///< frames a second
+
+  bool met(const Fidelity& of) const;
+  /// The greatest of all; 0 without any.
+  double excess(const Fidelity& of) const;
+  std::string text() const;                       ///< "psnr>=50, max<=4, fps>=60"
+  std::string reached(const Fidelity& of) const;  ///< "PSNR 50.32 dB, max 3.2 LSB8"; empty without any
+};
+
+/// "psnr>=50", "fps>=60"; each figure at most once, and at least one. Throws UserError (Usage) that names --target.
+Targets parse_targets(const std::vector<std::string>& texts);
 
 }  // namespace fastsplat::analysis

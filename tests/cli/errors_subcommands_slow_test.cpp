@@ -82,6 +82,22 @@ TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
   expect_success(fastsplat({"compare", folder / "g.exr", folder / "d.exr", "--min-psnr", "40"}));
 }
 
+TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
+  const TempFolder folder;
+  expect_success(fastsplat(with(kPropose, with(kSmall, {"--target", "fps>=700", "--clock", "100", "-o",
+                                                        folder / "p.toml", "--json", folder / "p.json"}))));
+  const Json speed = Json::parse(read_bytes(folder / "p.json")).at("speed"), &best = speed.at("proposed");
+  Words words{"cycles",  "--config", folder / "p.toml", "--devices",      best.at("devices").dump(),
+              "--clock", "100",      "--json",          folder / "c.json"};
+  if (best.at("cull_map") != "off") words = with(words, {"--fetch", "40"});
+  expect_success(fastsplat(with(words, kSmall)));
+  const Json scaling = Json::parse(read_bytes(folder / "c.json")).at("scaling");
+  EXPECT_EQ(scaling.at("frame_cycles"), best.at("cycles").at(0));
+  EXPECT_EQ(scaling.at("fps"), best.at("fps"));
+  EXPECT_GE(scaling.at("fps").get<double>(), 700.0);
+  EXPECT_EQ(speed.at("others").size(), 2U);
+}
+
 TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {
   const TempFolder folder;
   const Words words{"errors", "propose", "--target", "psnr>=45",        "--volume",  "shells:24",
@@ -128,6 +144,9 @@ TEST(ErrorsPropose, BadInputIsOneLine) {
   refused(with(propose, {"--target", "good"}), 2, {"--target", "not a target", "'good'", "psnr>="});
   refused(with(propose, {"--target", "psnr>=high"}), 2, {"--target", "not a number"});
   refused(with(propose, {"--target", "max<=-1"}), 2, {"--target", "above 0"});
+  refused(with(kPropose, with(kSmall, {"--target", "psnr>=50"})), 2, {"--target", "a second target", "'psnr>=50'"});
+  refused(with(kPropose, with(kSmall, {"--target", "fps>=60"})), 2, {"--clock", "is needed", "--clock 200"});
+  refused(with(kPropose, with(kSmall, {"--clock", "200"})), 2, {"--clock", "fps>=RATE"});
   refused(with(kPropose, {"--scenes", "demo:nonsuch"}), 2, {"nonsuch", "fire"});
   refused(with(kPropose, {"--scenes", folder / "none.toml"}), 3, {"none.toml"});
   refused(with(kPropose, {"--scenes", "demo:fire,,demo:fire"}), 2, {"--scenes", "empty"});

@@ -44,20 +44,31 @@ TEST(Target, IsMetWhereItsExcessIsOneAtMost) {
                                       {"max<=1", Fidelity{0.1, 1.001}, false},
                                       {"rms<=0.1", Fidelity{0.1, 5.0}, true},
                                       {"rms<=0.1", Fidelity{0.1001, 0.2}, false}}) {
-    const Target target = parse_target(text);
+    const Targets target = parse_targets({text});
     EXPECT_EQ(target.met(of), met) << text;
     EXPECT_EQ(target.excess(of) <= 1.0, met) << text;
   }
+  const Targets both = parse_targets({"psnr>=50", "max<=1", "fps>=24"});
+  EXPECT_TRUE(both.met({0.1, 1.0}));
+  EXPECT_FALSE(both.met({0.1, 1.1}));
+  EXPECT_FALSE(both.met({0.9, 1.0}));
+  EXPECT_EQ(both.fps, 24.0);
+  EXPECT_EQ(both.text(), "psnr>=50, max<=1, fps>=24");
   for (const char* bad : {"", "psnr", "psnr>50", "psnr>=", "psnr>=fifty", "psnr>=-3", "psnr>=1e9", "max<=0",
-                          "ssim>=0.9", "max<=1LSB", "PSNR>=50"}) {
+                          "ssim>=0.9", "max<=1LSB", "PSNR>=50", "fps>=0", "fps<=60"}) {
     try {
-      parse_target(bad);
+      parse_targets({bad});
       ADD_FAILURE() << "'" << bad << "' was taken";
     } catch (const UserError& error) {
       EXPECT_EQ(error.code(), ExitCode::Usage);
       EXPECT_EQ(error.parts().where, "--target");
     }
   }
+}
+
+TEST(Target, OfOneFigureIsGivenOnce) {
+  EXPECT_THROW(parse_targets({"psnr>=50", "psnr>=60"}), UserError);
+  EXPECT_THROW(parse_targets({}), UserError);
 }
 
 class JournalFile : public ::testing::Test {

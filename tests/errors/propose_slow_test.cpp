@@ -90,7 +90,7 @@ class Propose : public ::testing::Test {
 
 TEST_F(Propose, MeetsTheTargetAndNoMoveMakesItCheaper) {
   Journal journal;
-  const Proposal p = propose(scenes_, {"shells"}, base_, parse_target("psnr>=50"), journal, 0);
+  const Proposal p = propose(scenes_, {"shells"}, base_, parse_targets({"psnr>=50"}), 0.0, journal, 0);
   ASSERT_TRUE(p.search.met);
   const double reached = psnr(scenes_[0], p.search.best);
   EXPECT_GE(reached, 50.0);
@@ -121,15 +121,15 @@ TEST_F(Propose, MeetsTheTargetAndNoMoveMakesItCheaper) {
 }
 
 TEST_F(Propose, ItsJournalResumesWithoutSimulating) {
-  const Target target = parse_target("rms<=0.5");
+  const Targets targets = parse_targets({"rms<=0.5"});
   Proposal first, again, halfway;
   {
     Journal journal(path_);
-    first = propose(scenes_, {"shells"}, base_, target, journal, 0);
+    first = propose(scenes_, {"shells"}, base_, targets, 0.0, journal, 0);
   }
   {
     Journal journal(path_);
-    again = propose(scenes_, {"shells"}, base_, target, journal, 1);
+    again = propose(scenes_, {"shells"}, base_, targets, 0.0, journal, 1);
   }
   EXPECT_GT(first.simulated, 0);
   EXPECT_EQ(again.simulated, 0);
@@ -140,7 +140,7 @@ TEST_F(Propose, ItsJournalResumesWithoutSimulating) {
   std::filesystem::resize_file(path_, all.str().size() / 2);
   {
     Journal journal(path_);
-    halfway = propose(scenes_, {"shells"}, base_, target, journal, 2);
+    halfway = propose(scenes_, {"shells"}, base_, targets, 0.0, journal, 2);
   }
   EXPECT_GT(halfway.simulated, 0);
   EXPECT_LT(halfway.simulated, first.simulated);
@@ -155,7 +155,7 @@ TEST_F(Propose, ItsJournalResumesWithoutSimulating) {
 TEST_F(Propose, HoldsOnEveryScene) {
   const std::vector<scene::Scene> both{shells(scene::Method::XRay), shells()};
   Journal journal;
-  const Proposal p = propose(both, {"x-ray", "slabs"}, base_, parse_target("psnr>=45"), journal, 0);
+  const Proposal p = propose(both, {"x-ray", "slabs"}, base_, parse_targets({"psnr>=45"}), 0.0, journal, 0);
   ASSERT_TRUE(p.search.met);
   for (const scene::Scene& scene : both) EXPECT_GE(psnr(scene, p.search.best), 45.0);
   std::printf("[figure] two scenes: %.2f and %.2f dB at cost %.0f, %d frames\n", psnr(both[0], p.search.best),

@@ -154,6 +154,12 @@ function several(root: HTMLElement, result: Result, context: Context): void {
     columns: [
       { name: "Devices", value: (row) => row.devices, figure: figure("devices") },
       { name: "Frame", unit: "cycles", value: (row) => row.frame_cycles, figure: figure("frame_cycles") },
+      ...(last.clock_mhz
+        ? [
+            { name: "Frame", unit: "ms", value: (row: Result) => row.milliseconds, style: { digits: 3 }, figure: figure("milliseconds") },
+            { name: "Rate", unit: "fps", value: (row: Result) => row.fps, style: { digits: 2 }, figure: figure("fps") },
+          ]
+        : []),
       { name: "Speed-up", value: (row) => row.speed_up, style: { digits: 3 }, figure: figure("speed_up") },
       { name: "Efficiency", unit: "%", value: (row) => row.efficiency, style: { scale: 100, digits: 1 }, figure: figure("efficiency") },
       { name: "Limit", value: (row) => plain(row.limit?.name ?? "") },
@@ -219,10 +225,12 @@ export const cycles: Panel = {
         show(["actual_to_ideal"], { digits: 4 }),
         " times the ideal ",
         show(["cycles", "account", "ideal"]),
-        most > 0 ? ["; most is lost to ", h("strong", {}, plain(worst)), " (", show(["cycles", "account", worst]), `): ${causes[worst] ?? ""}.`] : "; nothing is lost.",
+        many ? "." : most > 0 ? ["; most is lost to ", h("strong", {}, plain(worst)), " (", show(["cycles", "account", worst]), `): ${causes[worst] ?? ""}.`] : "; nothing is lost.",
       ),
       note([made_of(result), `input ${result.input}, sink ${result.ready}`].filter(Boolean).join("; ")),
       tiles(
+        result.scaling?.clock_mhz && [`At ${result.scaling.clock_mhz} MHz`, show(["scaling", "fps"], { digits: 2, unit: "fps" })],
+        result.scaling?.clock_mhz && ["Frame", show(["scaling", "milliseconds"], { digits: 3, unit: "ms" })],
         ["Splats per cycle", show(["splats_per_cycle"], { digits: 3 })],
         ["Splat array used", show(["utilisation"], { scale: 100, digits: 1, unit: "%" })],
         ["Splats", show(["splats"])],

@@ -57,6 +57,24 @@ export const propose: Panel = {
       })),
     );
     place.append(legend(kinds.map(([, name, colour]) => ({ name: `${name}, bits`, colour }))));
+    const speed = result.speed;
+    if (speed)
+      table(root, {
+        label: `Devices at ${speed.clock_mhz} MHz`,
+        rows: [{ name: "from", ...speed.from }, { name: "proposed", ...speed.proposed }, ...speed.others.map((row: Result) => ({ name: `${row.target_fps} fps`, ...row }))].filter((row) => row.devices),
+        columns: [
+          { name: "Area", value: (row) => row.name },
+          { name: "Devices", value: (row) => row.devices },
+          { name: "fps", value: (row) => row.fps, style: { digits: 2 } },
+          { name: "Frame", unit: "ms", value: (row) => row.milliseconds, style: { digits: 2 } },
+          { name: "Lanes", value: (row) => row.array_lanes ** 2 },
+          { name: "At once", value: (row) => row.composited_at_once },
+          { name: "Tile", value: (row) => `${row.tile_width} x ${row.tile_height}` },
+          { name: "Culls", value: (row) => row.cull_map },
+          ...["lut", "ff", "ramb36", "dsp"].map((key) => ({ name: key.toUpperCase(), value: (row: Result) => row.area[key], style: { digits: 0 } })),
+          { name: "All", unit: "LUTs", value: (row) => row.area.equivalent_luts, style: { digits: 0 } },
+        ],
+      });
     table(root, {
       label: "Keys",
       rows: result.keys as Result[],

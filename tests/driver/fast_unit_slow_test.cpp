@@ -55,7 +55,7 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
   }
   compared.finish();
   EXPECT_GT(compared.combinations(), 300u);
-  EXPECT_GT(compared.pictures(), 1500u);
+  EXPECT_GT(compared.pictures(), 400u * compared.targets());  // a processor may have three or four
 }
 
 // Individual footprints, in sheets and sample by sample; kernels that grow in depth; splats that freeze whole blocks.

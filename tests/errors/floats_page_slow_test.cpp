@@ -59,6 +59,7 @@ std::map<std::string, std::vector<double>> rows_of_the_page() {
     std::vector<double> values;
     while (std::getline(cells, cell, '|')) {
       const auto from = cell.find_first_not_of(' '), to = cell.find_last_not_of(' ');
+      if (from == std::string::npos) continue;
       if (const auto value = number_from(cell.substr(from, to - from + 1))) values.push_back(*value);
     }
     if (inside && !values.empty()) rows[name.substr(1, name.size() - 2)] = values;

@@ -75,8 +75,8 @@ bool Simulator::meets(const cmodel::Config& config, const Targets& targets) {
 
 namespace {
 
-/// Widths and arrangement in turn: the area of a bit depends on the array and the number of devices, and the best of
-/// these on the widths. Ends where neither changes the other.
+/// Widths and arrangement in turn: the area of a bit depends on the array, and the best array on the widths. They
+/// mostly agree after two rounds.
 constexpr int kMostRounds = 6;
 
 /// Nothing to search: any picture is good enough.
@@ -113,7 +113,7 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
     out.search = search(from, [](const cmodel::Config& config) { return cost(config).total(); });
     out.config = out.search.best;
   } else {
-    SpeedSearch speeds(scenes, clock_mhz, threads);
+    SpeedSearch speeds(scenes, clock_mhz, threads, progress);
     ProposedSpeed& speed = out.speed.emplace();
     speed.target = {*targets.fps, clock_mhz};
     speed.from = speeds.least_devices(from, speed_keys(from), *targets.fps);
@@ -129,6 +129,8 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
       if (!out.search.met) break;
       speed.proposed = speeds.cheapest(out.search.best, *targets.fps);
       if (speed.proposed && speed.proposed->keys == keys) break;
+      // Pictures were judged with these keys.
+      if (round + 1 == kMostRounds) speed.proposed = speeds.least_devices(out.search.best, keys, *targets.fps);
     }
     if (out.search.met && speed.proposed) {
       for (const double rate : {0.5 * *targets.fps, 2.0 * *targets.fps}) {

@@ -72,7 +72,7 @@ struct Proposal {
   Cost cost_from, cost;           ///< of one device
   int simulated = 0, recalled = 0;
 
-  bool met() const { return search.met && (!speed || (speed->proposed && error && targets.met(*error))); }
+  bool met() const { return search.met && (!speed || speed->proposed); }
 };
 
 /// Throws UserError if `from` cannot draw a scene. `names`: of the scenes. With targets.fps, `clock_mhz` is that of the

@@ -106,8 +106,17 @@ std::string to_text(const Proposal& p) {
   }
   text = fmt::format("{}: ", p.targets.text());
   if (!p.targets.pictures.empty()) text += reached(p, p.error_from) + " -> " + reached(p, p.error) + ", ";
-  if (p.speed) text += fmt::format("{:.2f} fps, ", p.speed->proposed->fps(p.speed->target.clock_mhz));
-  text += fmt::format("cost {:+.1f} %\n", 100.0 * (p.cost.total() / p.cost_from.total() - 1.0));
+  const auto change = [](const char* what, double from, double to) {
+    return fmt::format("{} {:+.1f} %\n", what, 100.0 * (to / from - 1.0));
+  };
+  if (!p.speed) {
+    text += change("cost", p.cost_from.total(), p.cost.total());
+  } else {
+    const Arrangement& best = *p.speed->proposed;
+    text += fmt::format("{:.2f} fps with {}", best.fps(p.speed->target.clock_mhz),
+                        best.devices == 1 ? "1 device" : fmt::format("{} devices", best.devices));
+    text += p.speed->from ? change(", area", p.speed->from->equivalent_luts(), best.equivalent_luts()) : "\n";
+  }
   const std::string changed = changes(p.from, p.config);
   text += changed.empty() ? "nothing to change\n" : changed + "\n";
   if (p.speed) text += speeds(p);

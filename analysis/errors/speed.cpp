@@ -24,6 +24,8 @@ using cmodel::Config;
 constexpr int kLeastTile = 16, kMostTile = 128, kMostLanes = 16, kMostSlices = 16;
 /// A frame may take this share of its estimate, or more: widths move windows by a phase, and pipes overlap.
 constexpr double kSurely = 0.97;
+/// Typical number of frames that are counted; for the progress shown.
+constexpr std::size_t kUsualFrames = 60;
 
 }  // namespace
 
@@ -128,7 +130,8 @@ const SpeedSearch::Compiled* SpeedSearch::compiled(const Config& device) {
   compiled_ = std::move(fresh);
   compiled_hash_ = hash;
   counted_ += static_cast<int>(scenes_.size());
-  if (progress_) progress_(static_cast<std::size_t>(counted_), static_cast<std::size_t>(counted_) + 1);
+  if (progress_)
+    progress_(static_cast<std::size_t>(counted_), std::max(kUsualFrames, static_cast<std::size_t>(counted_) + 1));
   return compiled_.get();
 }
 

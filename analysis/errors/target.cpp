@@ -93,7 +93,7 @@ double Targets::excess(const Fidelity& of) const {
 std::string Targets::text() const {
   std::string out;
   for (const Target& each : pictures) out += (out.empty() ? "" : ", ") + each.text;
-  if (fps) out += (out.empty() ? "" : ", ") + fmt::format("fps>={:g}", *fps);
+  if (fps) out += (out.empty() ? "" : ", ") + fps_text;
   return out;
 }
 
@@ -132,6 +132,7 @@ Targets parse_targets(const std::vector<std::string>& texts) {
         out.pictures.push_back({*figure, *limit, text});
       } else {
         out.fps = *limit;
+        out.fps_text = text;
       }
     }
     if (!known) refuse(text, "not a target");

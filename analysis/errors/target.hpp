@@ -36,6 +36,7 @@ struct Target {
 struct Targets {
   std::vector<Target> pictures;  ///< empty: any picture is good enough
   std::optional<double> fps;     ///< frames a second
+  std::string fps_text;          ///< as it was given
 
   bool met(const Fidelity& of) const;
   /// The greatest of all; 0 without any.

@@ -113,7 +113,7 @@ void declare(Options& options, ErrorsProposeArguments& to) {
   options.words(
       "--target", to.targets, "TARGET",
       "target psnr>=DB, max<=LSB or rms<=LSB against golden, in 8-bit LSB over colours and alpha, or fps>=RATE, "
-      "frames per second; repeatable: all hold");
+      "frames per second; required; repeatable: all hold");
   declare_clock(options, to.clock, "clock of the devices, for fps>=RATE");
   options.word("--from", to.from, "NAME|FILE", "configuration to start from, which sets all other keys (base)");
   options.values(driver::config_names);

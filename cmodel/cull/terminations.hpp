@@ -10,27 +10,29 @@
 
 namespace fastsplat::cmodel {
 
-struct Terminations {
+class Terminations {
+ public:
   static constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 
-  int width = 0;
-  std::vector<std::uint32_t> sheets{};  ///< row by row; kNever for pixels that stay open
+  /// All pixels are open.
+  Terminations(int width, int height)
+      : width_(static_cast<std::size_t>(width)), sheets_(width_ * static_cast<std::size_t>(height), kNever) {}
 
-  Terminations(int across, int down)
-      : width(across), sheets(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), kNever) {}
-  std::uint32_t at(int x, int y) const { return sheets[index(x, y)]; }
+  /// kNever for a pixel that stays open.
+  std::uint32_t at(int x, int y) const { return sheets_[index(x, y)]; }
   /// The first sheet noted for a pixel stays.
-  void note(int x, int y, std::uint32_t sheet) { sheets[index(x, y)] = std::min(sheets[index(x, y)], sheet); }
+  void note(int x, int y, std::uint32_t sheet) { sheets_[index(x, y)] = std::min(sheets_[index(x, y)], sheet); }
   /// The pixels of a rectangle are open again.
-  void reset(int x, int y, int across, int down) {
-    for (int row = y; row < y + down; ++row)
-      std::fill_n(sheets.begin() + static_cast<std::ptrdiff_t>(index(x, row)), across, kNever);
+  void reset(int x, int y, int width, int height) {
+    for (int row = y; row < y + height; ++row)
+      std::fill_n(sheets_.begin() + static_cast<std::ptrdiff_t>(index(x, row)), width, kNever);
   }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x); }
+
+  std::size_t width_;
+  std::vector<std::uint32_t> sheets_;  ///< row by row
 };
 
 }  // namespace fastsplat::cmodel

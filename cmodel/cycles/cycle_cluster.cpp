@@ -80,6 +80,10 @@ std::uint64_t CycleCluster::wake() const {
 }
 
 void CycleCluster::pump() {
+  if (!link_.limited()) {
+    pump_at_once();
+    return;
+  }
   // Beats sent later arrive at or after the link's cycle, and cause later requests. So all requests up to this cycle
   // are known, and tiles are dealt in their order.
   while (deal(link_.cycle())) {
@@ -90,6 +94,15 @@ void CycleCluster::pump() {
     const std::uint64_t next = wake();
     if (next == kNever) return;
     link_.wait_until(next);
+  }
+}
+
+void CycleCluster::pump_at_once() {
+  for (; !undealt_.empty(); undealt_.pop_front()) {
+    QueuedDevice& first = **std::ranges::min_element(devices_, {}, [](const auto& device) { return device->asks(); });
+    const std::uint64_t dealt = first.asks();
+    first.deal(std::move(undealt_.front()));
+    for (; first.wants(); link_.pass()) first.arrive(std::max(dealt, first.room()));
   }
 }
 

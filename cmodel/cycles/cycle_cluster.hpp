@@ -50,6 +50,8 @@ class CycleCluster final : public Device {
   void broadcast(const Beat& beat);
   /// Deals and sends until the result may depend on beats to come.
   void pump();
+  /// The same for a link without limit: a beat arrives as soon as its device has room, whatever the others get.
+  void pump_at_once();
   /// Deals tiles to the devices that requested one up to `cycle`; false if one is due that has not arrived.
   bool deal(std::uint64_t cycle);
   /// The device whose beat the link begins in `cycle`; nullptr for none.

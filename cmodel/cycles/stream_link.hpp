@@ -26,6 +26,9 @@ class StreamLink {
     at_ += kBeatBytes;
     return (at_ - 1) / rate_;
   }
+  bool limited() const { return rate_ > 0; }
+  /// Counts a beat that need not wait for others.
+  void pass() { ++beats_; }
   /// Beats carried so far.
   std::uint64_t beats() const { return beats_; }
 

@@ -36,7 +36,6 @@ class UnitsCompared {
   /// Prints the figures; expects no difference, and at least one tile drawn by the fast unit for every `name`.
   void finish() const;
   std::size_t combinations() const { return combinations_; }
-  std::size_t targets() const { return targets_.all().size(); }  ///< instruction sets of this processor
   std::uint64_t redone() const;
   std::size_t pictures() const { return pictures_; }  ///< drawn without counters
   std::size_t left_out() const { return left_out_; }  ///< records of Gaussians that pictures do not have

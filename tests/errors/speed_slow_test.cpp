@@ -199,7 +199,7 @@ TEST(ProposedSpeed, OneThatCannotBeReachedIsNotMet) {
   const Proposal p = propose(two, {"shells", "fire"}, driver::load_config("base"), targets, kClock, journal, 0);
   EXPECT_TRUE(p.search.met);
   EXPECT_FALSE(p.met());
-  EXPECT_NE(to_text(p).find("fps>=1e+09 is not met"), std::string::npos) << to_text(p);
+  EXPECT_NE(to_text(p).find("fps>=1e9 is not met"), std::string::npos) << to_text(p);
 }
 
 }  // namespace

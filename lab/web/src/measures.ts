@@ -24,8 +24,9 @@ function error_tiles(compare: Result): HTMLElement {
 function device_tiles(frame: Frame): HTMLElement {
   const { config, words_hash } = frame;
   const show = figures_of(0, frame as unknown as Result);
-  const technologies: [string, ...Child[]][] = Object.entries(config.synthesis ?? {}).map(([name, counts]) => [
-    `Synthesised, ${name}`,
+  const estimated = config.area ? { "xc7, estimated": config.area } : {};
+  const technologies: [string, ...Child[]][] = Object.entries({ ...config.synthesis, ...estimated }).map(([name, counts]) => [
+    `Area, ${name}`,
     `${number_text(counts.lut)} LUT, ${number_text(counts.dsp)} DSP`,
     h("small", {}, ` ${number_text(counts.ff)} FF, ${number_text(counts.bram)} BRAM`),
   ]);

@@ -18,7 +18,7 @@ export const propose: Panel = {
   name: "propose",
   verbs: ["errors propose"],
   title: "Proposed configuration",
-  about: "The cheapest configuration found that meets the target, and what became of each key. Cost is counted in full adders; a bit of memory is a sixth of one.",
+  about: "The cheapest configuration that meets the target, and each key. Cost is in full adders; a bit of memory is a sixth.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const saved = 1 - result.cost.total / result.cost_from.total;
@@ -26,7 +26,7 @@ export const propose: Panel = {
       lead(
         result.met ? "pass" : "fail",
         h("code", {}, result.target),
-        result.met ? ` is met at ${number_text(100 * (1 - saved), { digits: 0 })} % of the cost: ` : " is not met by any configuration that was tried: ",
+        result.met ? (result.speed ? ` is met by ${result.speed.proposed.devices} devices: ` : ` is met at ${number_text(100 * (1 - saved), { digits: 0 })} % of the cost: `) : " is not met by any that was tried: ",
         "PSNR ",
         show(["error_from", "psnr_db"], { digits: 2 }),
         " \u2192 ",
@@ -81,7 +81,7 @@ export const propose: Panel = {
       columns: [
         { name: "Key", value: (row) => row.key },
         { name: "From", value: (row) => row.from },
-        { name: "Alone would do", value: (row) => row.alone },
+        { name: "Alone", value: (row) => row.alone },
         { name: "Proposed", value: (row) => row.proposed, kind: (row) => (row.proposed !== row.from ? "changed" : "") },
         { name: "One less", value: (row) => row.lower },
         { name: "gives", unit: "times the error allowed", value: (row) => row.excess_if_lower, style: { digits: 3 }, figure: (row) => `${context.index}.keys.${result.keys.indexOf(row)}.excess_if_lower` },

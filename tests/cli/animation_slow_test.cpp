@@ -190,7 +190,7 @@ TEST(Video, OfTheRealFfmpegPlays) {
   EXPECT_EQ(probed.out, "34,32,6\n") << probed.err;
 }
 
-struct Misuse {
+struct WrongFlags {
   std::vector<std::string> arguments;
   std::vector<std::string> said;
 };
@@ -198,7 +198,7 @@ struct Misuse {
 TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
   const TempFolder folder;
   const std::string out = folder / "f.##.png";
-  const std::vector<Misuse> all{
+  const std::vector<WrongFlags> all{
       {{"--orbit", "30..30", "--frames", "4", "-o", out}, {"same angle"}},
       {{"--orbit", "30-60", "--frames", "4", "-o", out}, {"--orbit", "'30-60'"}},
       {{"--orbit", "0..", "--frames", "4", "-o", out}, {"--orbit", "'0..'"}},

@@ -43,14 +43,14 @@ TEST(ConfigFlags, LimitsBetweenKeysHoldAfterTheLast) {
   EXPECT_EQ(changed.rlut_columns, 15);
 }
 
-struct Misuse {
+struct WrongChange {
   const char* name;
   std::vector<std::string> changes;
   std::vector<std::string> said;
 };
-void PrintTo(const Misuse& misuse, std::ostream* out) { *out << misuse.name; }
+void PrintTo(const WrongChange& misuse, std::ostream* out) { *out << misuse.name; }
 
-class WrongSet : public ::testing::TestWithParam<Misuse> {};
+class WrongSet : public ::testing::TestWithParam<WrongChange> {};
 
 TEST_P(WrongSet, IsOneLineThatNamesIt) {
   try {
@@ -69,20 +69,20 @@ TEST_P(WrongSet, IsOneLineThatNamesIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     ConfigFlags, WrongSet,
-    ::testing::Values(Misuse{"no_value", {"radial.entries"}, {"KEY=VALUE", "radial.entries=256"}},
-                      Misuse{"no_key", {"=3"}, {"KEY=VALUE"}},
-                      Misuse{"key_mistyped", {"radial.entires=256"}, {"did you mean 'radial.entries'"}},
-                      Misuse{"key_without_table", {"lanes=4"}, {"--set lanes=4"}},
-                      Misuse{"value_empty", {"radial.entries="}, {"2..65536"}},
-                      Misuse{"value_no_number", {"radial.entries=many"}, {"2..65536", "got many"}},
-                      Misuse{"value_with_fraction", {"radial.entries=2.5"}, {"got 2.5"}},
-                      Misuse{"value_out_of_range", {"radial.entries=1"}, {"2..65536", "got 1"}},
-                      Misuse{"value_huge", {"radial.entries=99999999999"}, {"2..65536"}},
-                      Misuse{"value_no_power_of_two", {"radial.entries=200"}, {"a power of two", "128 or 256"}},
-                      Misuse{"key_twice", {"rlut.sets=2", "rlut.sets=3"}, {"--set rlut.sets=3", "set twice"}},
-                      Misuse{"limit_between_keys",
-                             {"rlut.sets=2", "tile.width=33"},
-                             {"--set rlut.sets=2 --set tile.width=33", "tile.width", "a multiple of"}}),
+    ::testing::Values(WrongChange{"no_value", {"radial.entries"}, {"KEY=VALUE", "radial.entries=256"}},
+                      WrongChange{"no_key", {"=3"}, {"KEY=VALUE"}},
+                      WrongChange{"key_mistyped", {"radial.entires=256"}, {"did you mean 'radial.entries'"}},
+                      WrongChange{"key_without_table", {"lanes=4"}, {"--set lanes=4"}},
+                      WrongChange{"value_empty", {"radial.entries="}, {"2..65536"}},
+                      WrongChange{"value_no_number", {"radial.entries=many"}, {"2..65536", "got many"}},
+                      WrongChange{"value_with_fraction", {"radial.entries=2.5"}, {"got 2.5"}},
+                      WrongChange{"value_out_of_range", {"radial.entries=1"}, {"2..65536", "got 1"}},
+                      WrongChange{"value_huge", {"radial.entries=99999999999"}, {"2..65536"}},
+                      WrongChange{"value_no_power_of_two", {"radial.entries=200"}, {"a power of two", "128 or 256"}},
+                      WrongChange{"key_twice", {"rlut.sets=2", "rlut.sets=3"}, {"--set rlut.sets=3", "set twice"}},
+                      WrongChange{"limit_between_keys",
+                                  {"rlut.sets=2", "tile.width=33"},
+                                  {"--set rlut.sets=2 --set tile.width=33", "tile.width", "a multiple of"}}),
     [](const auto& misuse) { return misuse.param.name; });
 
 }  // namespace

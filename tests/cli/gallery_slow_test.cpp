@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = FASTSPLAT_SOURCE_DIR;
+const fs::path kSource = FASTSPLAT_SOURCE_DIR;
 
 /// The first group of every match.
 std::vector<std::string> all_in(const std::string& text, const std::string& pattern) {
@@ -25,30 +25,31 @@ std::vector<std::string> all_in(const std::string& text, const std::string& patt
 }
 
 TEST(Gallery, PageIsWhatTheManifestGenerates) {
-  const auto generated = run_words({kRoot / "tools/helpers/gallery_page", "--markdown", kRoot});
+  const auto generated = run_words({kSource / "tools/helpers/gallery_page", "--markdown", kSource});
   ASSERT_EQ(generated.code, 0) << generated.err;
-  EXPECT_EQ(generated.out, read_bytes(kRoot / "docs/gallery.md")) << "run tools/gallery, look at the pictures, commit";
+  EXPECT_EQ(generated.out, read_bytes(kSource / "docs/gallery.md"))
+      << "run tools/gallery, look at the pictures, commit";
 }
 
 TEST(Gallery, PicturesAndPagesAreThere) {
   constexpr std::uintmax_t kLargest = 60000;  // bytes
-  const auto page = read_bytes(kRoot / "docs/gallery.md");
+  const auto page = read_bytes(kSource / "docs/gallery.md");
   const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
   std::uintmax_t largest = 0;
   for (const auto& picture : pictures) {
-    ASSERT_TRUE(fs::exists(kRoot / "docs" / picture)) << picture;
-    EXPECT_EQ(read_bytes(kRoot / "docs" / picture).substr(1, 3), "PNG") << picture;
-    EXPECT_LE(fs::file_size(kRoot / "docs" / picture), kLargest) << picture;
-    largest = std::max(largest, fs::file_size(kRoot / "docs" / picture));
+    ASSERT_TRUE(fs::exists(kSource / "docs" / picture)) << picture;
+    EXPECT_EQ(read_bytes(kSource / "docs" / picture).substr(1, 3), "PNG") << picture;
+    EXPECT_LE(fs::file_size(kSource / "docs" / picture), kLargest) << picture;
+    largest = std::max(largest, fs::file_size(kSource / "docs" / picture));
   }
   const auto pages = all_in(page, R"(\[How and how well\]\(([^)]+)\))");
-  for (const auto& name : pages) EXPECT_TRUE(fs::exists(kRoot / "docs" / name)) << name;
+  for (const auto& name : pages) EXPECT_TRUE(fs::exists(kSource / "docs" / name)) << name;
   std::printf("[figure] gallery_pictures = %zu, largest %ju bytes (limit %ju)\n", pictures.size(), largest, kLargest);
   ASSERT_GT(pictures.size(), 0u);
   ASSERT_GT(pages.size(), 0u);
   // No picture without an entry.
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(kRoot / "docs/images/gallery")) ++files;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(kSource / "docs/images/gallery")) ++files;
   EXPECT_EQ(files, pictures.size());
 }
 
@@ -80,7 +81,7 @@ std::vector<std::string> origin_of(const fs::path& png) {
 TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
   const TempFolder folder;
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
-  const auto page = read_bytes(kRoot / "docs/gallery.md");
+  const auto page = read_bytes(kSource / "docs/gallery.md");
   const auto commands = all_in(page, "`fastsplat ((?:render|compare) [^`]+)`");
   const auto pictures = all_in(page, R"(\]\((images/gallery/[^)]+)\))");
   ASSERT_EQ(commands.size(), pictures.size());
@@ -104,7 +105,7 @@ TEST(Gallery, EveryCommandRunsAndMakesItsPicture) {
     SCOPED_TRACE(command);
     expect_success(fastsplat(arguments));
     const auto now = origin_of(folder / "picture.png");
-    const auto then = origin_of(kRoot / "docs" / pictures[i]);
+    const auto then = origin_of(kSource / "docs" / pictures[i]);
     // A scene of Gaussians has fewer lines, because its view is one of them.
     const bool gaussians = command.find("--gaussians") != std::string::npos;
     EXPECT_GT(then.size(), gaussians ? 6u : 10u) << pictures[i] << " does not state its origin";
@@ -133,12 +134,12 @@ TEST(GalleryMustFail, AnErrorInAManifestIsLocated) {
                          Bad{good + "[[picture]]\nname = \"x\"\n", "lacks the key section"},
                          Bad{good + good, "duplicate picture name c"}, Bad{good + "enlarge = 3\n", ":8: expected"}}) {
     folder.write("docs/gallery.toml", bad.text);
-    const auto result = run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()});
+    const auto result = run_words({kSource / "tools/helpers/gallery_page", "--markdown", folder.path()});
     EXPECT_NE(result.err.find(bad.said), std::string::npos) << result.err;
   }
   folder.write("docs/gallery.toml", good);
   EXPECT_NE(
-      run_words({kRoot / "tools/helpers/gallery_page", "--markdown", folder.path()}).out.find("images/gallery/c.png"),
+      run_words({kSource / "tools/helpers/gallery_page", "--markdown", folder.path()}).out.find("images/gallery/c.png"),
       std::string::npos);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> small_render(std::vector<std::string> more) {
+std::vector<std::string> render_24(std::vector<std::string> more) {
   std::vector<std::string> all{"render", "--volume", "shells:24", "--size", "64x48"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
@@ -32,8 +32,8 @@ Json without_times(const Json& json) {
 
 TEST(RenderAndCompare, GoldenAndModelAgreeWithinTheBudgetOfBase) {
   const TempFolder folder;
-  expect_success(fastsplat(small_render({"-o", folder / "g.exr"})));
-  expect_success(fastsplat(small_render({"--engine", "cmodel", "--config", "base", "-o", folder / "c.exr"})));
+  expect_success(fastsplat(render_24({"-o", folder / "g.exr"})));
+  expect_success(fastsplat(render_24({"--engine", "cmodel", "--config", "base", "-o", folder / "c.exr"})));
   // The acceptance budget of the base configuration: 48 dB, 3 LSB of 8 bits.
   const auto result =
       fastsplat({"compare", folder / "g.exr", folder / "c.exr", "--min-psnr", "48", "--max-lsb", "3", "--json", "-"});
@@ -53,7 +53,7 @@ TEST(RenderAndCompare, JsonCountsUnlessToldNotTo) {
   const TempFolder folder;
   const auto drawn = [&](const std::string& picture, std::vector<std::string> more) {
     more.insert(more.end(), {"--engine", "cmodel", "--zoom", "3", "--json", "-", "--raw", folder / picture});
-    const auto result = fastsplat(small_render(more));
+    const auto result = fastsplat(render_24(more));
     expect_success(result);
     return parsed(result.out);
   };
@@ -67,14 +67,14 @@ TEST(RenderAndCompare, JsonCountsUnlessToldNotTo) {
   EXPECT_FALSE(uncounted.contains("driver"));
   EXPECT_EQ(both["counters"], counted["counters"]);
   EXPECT_EQ(read_bytes(folder / "uncounted.exr"), read_bytes(folder / "counted.exr"));
-  expect_error(fastsplat(small_render({"--no-counters", "-o", folder / "g.exr"})), 2, {"--no-counters", "golden"});
+  expect_error(fastsplat(render_24({"--no-counters", "-o", folder / "g.exr"})), 2, {"--no-counters", "golden"});
 }
 
 TEST(RenderAndCompare, EveryMethodRendersOnBothEngines) {
   const TempFolder folder;
   for (const std::string method : {"image_aligned", "axis_aligned", "xray"}) {
-    expect_success(fastsplat(small_render({"--method", method, "-o", folder / "g.exr"})));
-    expect_success(fastsplat(small_render({"--method", method, "--engine", "cmodel", "-o", folder / "c.exr"})));
+    expect_success(fastsplat(render_24({"--method", method, "-o", folder / "g.exr"})));
+    expect_success(fastsplat(render_24({"--method", method, "--engine", "cmodel", "-o", folder / "c.exr"})));
     const auto result = fastsplat({"compare", folder / "g.exr", folder / "c.exr", "--min-psnr", "40"});
     EXPECT_EQ(result.code, 0) << method << "\n" << result.out;
   }
@@ -86,8 +86,8 @@ TEST(RenderAndCompare, EveryMethodRendersOnBothEngines) {
 
 TEST(RenderAndCompare, LimitsDecideTheExitCode) {
   const TempFolder folder;
-  expect_success(fastsplat(small_render({"-o", folder / "a.exr"})));
-  expect_success(fastsplat(small_render({"--azimuth", "35", "-o", folder / "b.exr"})));
+  expect_success(fastsplat(render_24({"-o", folder / "a.exr"})));
+  expect_success(fastsplat(render_24({"--azimuth", "35", "-o", folder / "b.exr"})));
   const auto same = fastsplat({"compare", folder / "a.exr", folder / "a.exr", "--max-lsb", "0", "--min-ssim", "1"});
   EXPECT_EQ(same.code, 0) << same.out;
   for (const std::vector<std::string>& limit : {std::vector<std::string>{"--max-lsb", "0.5"},
@@ -110,8 +110,8 @@ TEST(RenderAndCompare, LimitsDecideTheExitCode) {
 
 TEST(RenderAndCompare, MapsAreWritten) {
   const TempFolder folder;
-  expect_success(fastsplat(small_render({"-o", folder / "a.exr"})));
-  expect_success(fastsplat(small_render({"--engine", "cmodel", "-o", folder / "b.exr"})));
+  expect_success(fastsplat(render_24({"-o", folder / "a.exr"})));
+  expect_success(fastsplat(render_24({"--engine", "cmodel", "-o", folder / "b.exr"})));
   expect_success(fastsplat(
       {"compare", folder / "a.exr", folder / "b.exr", "--map", folder / "m.png", "--heat", folder / "h.png"}));
   EXPECT_EQ(read_bytes(folder / "m.png").substr(1, 3), "PNG");
@@ -120,7 +120,7 @@ TEST(RenderAndCompare, MapsAreWritten) {
 
 TEST(NotComparable, IsExit4) {
   const TempFolder folder;
-  expect_success(fastsplat(small_render({"-o", folder / "a.exr", "-o", folder / "a.png"})));
+  expect_success(fastsplat(render_24({"-o", folder / "a.exr", "-o", folder / "a.png"})));
   expect_success(fastsplat({"render", "--volume", "shells:24", "--size", "32", "-o", folder / "b.exr"}));
   expect_error(fastsplat({"compare", folder / "a.exr", folder / "b.exr"}), 4, {"64", "48", "32"});
   expect_error(fastsplat({"compare", folder / "a.exr", folder / "a.png"}), 4, {"a.png", "sRGB"});
@@ -131,8 +131,8 @@ TEST(NotComparable, IsExit4) {
 TEST(Json, IsAloneOnStdoutAndTheSameInAFile) {
   const TempFolder folder;
   for (const std::vector<std::string>& arguments :
-       {small_render({}),
-        small_render({"--engine", "cmodel"}),
+       {render_24({}),
+        render_24({"--engine", "cmodel"}),
         std::vector<std::string>{"volume", "info", "shells:8"},
         {"volume", "convert", "shells:8", folder / "v.nrrd"},
         {"stream", "record", "--volume", "shells:8", "--size", "16", "-o", folder / "s.fss"},
@@ -159,7 +159,7 @@ TEST(Json, IsAloneOnStdoutAndTheSameInAFile) {
 TEST(Json, OfARenderHoldsCountersAndProvenance) {
   const TempFolder folder;
   const auto json = parsed(
-      fastsplat(small_render({"--engine", "cmodel", "--config", "small", "--json", "-", "-o", folder / "a.exr"})).out);
+      fastsplat(render_24({"--engine", "cmodel", "--config", "small", "--json", "-", "-o", folder / "a.exr"})).out);
   EXPECT_EQ(json["config"]["name"], "small");
   EXPECT_EQ(json["config"]["hash"].get<std::string>().size(), 16u);
   EXPECT_GT(json["voxels"].get<int>(), 0);
@@ -171,14 +171,14 @@ TEST(Json, OfARenderHoldsCountersAndProvenance) {
 
 TEST(Quiet, SaysNothing) {
   const TempFolder folder;
-  const auto result = fastsplat(small_render({"--quiet", "-o", folder / "a.exr"}));
+  const auto result = fastsplat(render_24({"--quiet", "-o", folder / "a.exr"}));
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out + result.err, "");
 }
 
 TEST(Stderr, HasNoControlSequencesWithoutATerminal) {
   const TempFolder folder;
-  const auto result = fastsplat(small_render({"-o", folder / "a.exr"}));
+  const auto result = fastsplat(render_24({"-o", folder / "a.exr"}));
   EXPECT_EQ(result.err.find('\033'), std::string::npos);
   EXPECT_EQ(result.err.find('\r'), std::string::npos);
 }
@@ -189,7 +189,7 @@ TEST(Threads, NeverChangeAByte) {
   for (const std::string engine : {"golden", "cmodel"}) {
     for (const std::string method : {"image_aligned", "axis_aligned", "xray"}) {
       for (const std::string threads : {"1", "2", "5"}) {
-        expect_success(fastsplat(small_render(
+        expect_success(fastsplat(render_24(
             {"--engine", engine, "--method", method, "--threads", threads, "-o", folder / ("t" + threads + ".exr")})));
       }
       for (const std::string threads : {"2", "5"}) {
@@ -204,9 +204,9 @@ TEST(Threads, NeverChangeAByte) {
 
 TEST(Scene, SavedAndReadBackIsTheSamePicture) {
   const TempFolder folder;
-  expect_success(fastsplat(
-      small_render({"--azimuth", "-70", "--perspective", "--fov", "40", "--kernel-a", "1.5", "--shading", "on",
-                    "--slab-width", "0.5", "-o", folder / "a.exr", "--save-scene", folder / "s.toml"})));
+  expect_success(
+      fastsplat(render_24({"--azimuth", "-70", "--perspective", "--fov", "40", "--kernel-a", "1.5", "--shading", "on",
+                           "--slab-width", "0.5", "-o", folder / "a.exr", "--save-scene", folder / "s.toml"})));
   expect_success(fastsplat({"render", "--scene", folder / "s.toml", "-o", folder / "b.exr"}));
   const auto result = fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0", "--json", "-"});
   EXPECT_EQ(result.code, 0) << result.out;
@@ -217,7 +217,7 @@ TEST(Scene, SavedAndReadBackIsTheSamePicture) {
 
 TEST(Stream, RecordedAndReplayedIsTheRenderedFrame) {
   const TempFolder folder;
-  expect_success(fastsplat(small_render({"--engine", "cmodel", "--config", "small", "--raw", folder / "a.exr"})));
+  expect_success(fastsplat(render_24({"--engine", "cmodel", "--config", "small", "--raw", folder / "a.exr"})));
   expect_success(fastsplat(
       {"stream", "record", "--volume", "shells:24", "--size", "64x48", "--config", "small", "-o", folder / "s.fss"}));
   expect_success(fastsplat({"stream", "replay", folder / "s.fss", "--config", "small", "--raw", folder / "b.exr"}));

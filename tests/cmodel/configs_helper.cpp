@@ -68,6 +68,16 @@ cmodel::Config named_config(const std::string& name) {
   return config_of(symbols, name);
 }
 
+cmodel::Config sampling(const std::string& name) {
+  cmodel::Config config = named_config(name);
+  config.composite_every_sample = 1;
+  return config;
+}
+
+std::string name_of(cmodel::IndexKind kind) {
+  return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)];
+}
+
 std::vector<std::string> config_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(FASTSPLAT_SOURCE_DIR) + "/configs"))

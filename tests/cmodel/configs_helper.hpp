@@ -17,8 +17,13 @@ std::map<std::string, std::string> read_keys(const std::string& path);
 
 /// configs/<name>.toml. Throws std::runtime_error when a key is missing or a number is not one.
 cmodel::Config named_config(const std::string& name);
+/// The same with every sample composited.
+cmodel::Config sampling(const std::string& name);
 /// Names of all files in configs/.
 std::vector<std::string> config_names();
+
+/// As index.kind names it.
+std::string name_of(cmodel::IndexKind kind);
 
 oracle::Symbols symbols_of(const cmodel::Config& config);
 cmodel::Config config_of(const oracle::Symbols& symbols, const std::string& name);

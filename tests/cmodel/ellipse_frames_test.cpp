@@ -10,8 +10,6 @@ namespace {
 
 using cmodel::IndexKind;
 
-std::string name_of(IndexKind kind) { return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)]; }
-
 class EllipseFrames : public ::testing::TestWithParam<IndexKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EllipseFrames,

@@ -14,12 +14,6 @@
 namespace fastsplat::test {
 namespace {
 
-cmodel::Config sampling(const std::string& name) {
-  cmodel::Config config = named_config(name);
-  config.composite_every_sample = 1;
-  return config;
-}
-
 struct Measured {
   cmodel::CycleAccount account;
   cmodel::StallCounters stalls;

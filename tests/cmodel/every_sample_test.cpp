@@ -9,12 +9,6 @@
 namespace fastsplat::test {
 namespace {
 
-cmodel::Config sampling(const std::string& name) {
-  cmodel::Config config = named_config(name);
-  config.composite_every_sample = 1;
-  return config;
-}
-
 class EverySample : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySample, ModelEqualsOracle) {

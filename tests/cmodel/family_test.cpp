@@ -22,8 +22,6 @@ using cmodel::IndexKind;
 constexpr IndexKind kKinds[] = {IndexKind::Linear, IndexKind::Squared, IndexKind::SquaredElliptic,
                                 IndexKind::Blit2d, IndexKind::Rlut,    IndexKind::Separable};
 
-std::string name_of(IndexKind kind) { return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)]; }
-
 class Family : public ::testing::TestWithParam<IndexKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Family, ::testing::ValuesIn(kKinds),

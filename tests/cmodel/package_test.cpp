@@ -33,7 +33,7 @@ std::set<std::string> names_read() {
 }
 
 /// The number that the package gives a name; -1 if it has none.
-long number_of(const std::string& package, const std::string& name) {
+long constant_of(const std::string& package, const std::string& name) {
   std::smatch match;
   return std::regex_search(package, match, std::regex("localparam int " + name + " = ([0-9]+);"))
              ? std::stol(match[1].str())
@@ -129,7 +129,7 @@ TEST(Package, SaysWhenTheLastSliceOfABlockOfDensitiesComes) {
   const auto late = [&](int lanes, long expected) {
     config.composite_lanes = lanes;
     ASSERT_FALSE(cmodel::first_violation(config));
-    EXPECT_EQ(number_of(cmodel::sv_package(config), "DENSITY_LATE"), expected) << lanes;
+    EXPECT_EQ(constant_of(cmodel::sv_package(config), "DENSITY_LATE"), expected) << lanes;
     ++checked;
   };
   late(0, 28 - 4);  // a whole block at once: five cycles, the last slice 28 after the first of them

@@ -9,6 +9,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
 #include "golden/render.hpp"
+#include "tests/cmodel/configs_helper.hpp"
 #include "tests/driver/oracle/given.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
@@ -16,11 +17,10 @@ namespace fastsplat::driver {
 namespace {
 
 using cmodel::IndexKind;
+using test::name_of;
 
 constexpr IndexKind kKinds[] = {IndexKind::Linear, IndexKind::Squared, IndexKind::SquaredElliptic,
                                 IndexKind::Blit2d, IndexKind::Rlut,    IndexKind::Separable};
-
-std::string name_of(IndexKind kind) { return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)]; }
 
 /// base with a kind; for blit2d with as many phases as its tables can hold.
 cmodel::Config base_of(IndexKind kind) {

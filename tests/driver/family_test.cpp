@@ -7,6 +7,7 @@
 #include "driver/config/config_file.hpp"
 #include "driver/tables/index_tables.hpp"
 #include "driver/tables/tables.hpp"
+#include "tests/cmodel/configs_helper.hpp"
 #include "tests/driver/oracle_helper.hpp"
 #include "tests/driver/scenes_helper.hpp"
 
@@ -14,11 +15,10 @@ namespace fastsplat::driver {
 namespace {
 
 using cmodel::IndexKind;
+using test::name_of;
 
 constexpr IndexKind kOthers[] = {IndexKind::Linear, IndexKind::Squared, IndexKind::SquaredElliptic, IndexKind::Blit2d,
                                  IndexKind::Separable};
-
-std::string name_of(IndexKind kind) { return cmodel::find_key("index.kind")->names[static_cast<std::size_t>(kind)]; }
 
 class DriverFamily : public ::testing::TestWithParam<IndexKind> {};
 

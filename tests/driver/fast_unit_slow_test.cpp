@@ -12,11 +12,11 @@
 namespace fastsplat::driver {
 namespace {
 
-struct Setting {
+struct Change {
   const char* name;
   void (*apply)(scene::SceneDescription&);
 };
-const Setting kMethods[] = {
+const Change kMethods[] = {
     {"image", [](scene::SceneDescription&) {}},
     {"image_opaque", [](scene::SceneDescription& d) { d.opacity_scale = 12; }},
     {"image_additive", [](scene::SceneDescription& d) { d.slab_opacity = scene::SlabOpacity::Additive; }},
@@ -25,7 +25,7 @@ const Setting kMethods[] = {
     {"xray", [](scene::SceneDescription& d) { d.method = scene::Method::XRay; }},
     {"xray_bright", [](scene::SceneDescription& d) { d.method = scene::Method::XRay, d.xray_exposure = 3.0; }},
 };
-const Setting kViews[] = {
+const Change kViews[] = {
     {"turned", [](scene::SceneDescription& d) { d.camera.azimuth = 33, d.camera.elevation = 21, d.camera.roll = 5; }},
     {"near", [](scene::SceneDescription& d) { d.camera.azimuth = -50, d.camera.zoom = 2.3; }},
     {"far", [](scene::SceneDescription& d) { d.camera.zoom = 0.4; }},
@@ -39,8 +39,8 @@ const Setting kViews[] = {
 TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
   UnitsCompared compared;
   for (const auto& name : config_names()) {
-    for (const Setting& method : kMethods) {
-      for (const Setting& view : kViews) {
+    for (const Change& method : kMethods) {
+      for (const Change& view : kViews) {
         for (const char* volume : {"shells:16", "marschner-lobb:18"}) {
           scene::SceneDescription description;
           description.volume = volume;
@@ -60,7 +60,7 @@ TEST(FastUnit, DrawsThePlainUnitsWordsAndCounters) {
 }
 
 // Individual footprints, in sheets and sample by sample; kernels that grow in depth; splats that freeze whole blocks.
-const Setting kShapes[] = {
+const Change kShapes[] = {
     {"perspective",
      [](scene::SceneDescription& d) {
        d.camera.projection = scene::Projection::Perspective, d.camera.fov = 60;
@@ -91,8 +91,8 @@ TEST(FastUnit, DrawsEllipsesAndSamplesAsThePlainUnit) {
     for (const char* name : {"ellipse", "base", "compact"}) {
       cmodel::Config config = load_config(name);
       config.composite_every_sample = samples ? 1 : 0;
-      for (const Setting& method : kMethods) {
-        for (const Setting& shape : kShapes) {
+      for (const Change& method : kMethods) {
+        for (const Change& shape : kShapes) {
           scene::SceneDescription description;
           description.volume = "shells:16";
           description.width = 150, description.height = 140;  // tiles that the image cuts
@@ -114,7 +114,7 @@ TEST(FastUnit, DrawsEllipsesAndSamplesAsThePlainUnit) {
 
 // Densities: blocks of the rim, tiles that read each other's edges, ellipses, pictures in the footprints.
 TEST(FastUnit, DrawsDensitiesAsThePlainUnit) {
-  const Setting densities[] = {
+  const Change densities[] = {
       {"whole slabs", [](scene::SceneDescription&) {}},
       {"thin slabs", [](scene::SceneDescription& d) { d.slab_width = 0.5; }},
       {"additive", [](scene::SceneDescription& d) { d.slab_opacity = scene::SlabOpacity::Additive; }},
@@ -126,8 +126,8 @@ TEST(FastUnit, DrawsDensitiesAsThePlainUnit) {
   };
   UnitsCompared compared;
   for (const char* name : {"base", "small", "fine", "tiny"}) {
-    for (const Setting& what : densities) {
-      for (const Setting& view : {kViews[0], kViews[3]}) {
+    for (const Change& what : densities) {
+      for (const Change& view : {kViews[0], kViews[3]}) {
         scene::SceneDescription description;
         description.volume = "marschner-lobb:18";
         description.transfer_function = "ct-head";

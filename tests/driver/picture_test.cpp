@@ -12,15 +12,15 @@
 namespace fastsplat::driver {
 namespace {
 
-struct Both {
+struct TwoPictures {
   DeviceRender picture, counted;
 };
 
 /// Without and with counters; by default the picture in bands of a row of blocks.
-Both drawn(const scene::SceneDescription& description, const cmodel::Config& config, int band_rows = 1) {
+TwoPictures drawn_twice(const scene::SceneDescription& description, const cmodel::Config& config, int band_rows = 1) {
   const scene::Scene scene = scene::build_scene(description);
-  Both out{.picture = render(scene, config, {.threads = 2, .counters = false, .band_rows = band_rows}),
-           .counted = render(scene, config, {.threads = 1, .band_rows = band_rows})};
+  TwoPictures out{.picture = render(scene, config, {.threads = 2, .counters = false, .band_rows = band_rows}),
+                  .counted = render(scene, config, {.threads = 1, .band_rows = band_rows})};
   EXPECT_EQ(out.picture.frame.words, out.counted.frame.words);
   EXPECT_TRUE(out.counted.counted);
   return out;
@@ -35,7 +35,7 @@ TEST(Picture, VisitsOnlyWhatCanChangeAPixel) {
         description.opacity_scale = 6.0;
         description.method = method;
         description.camera.projection = projection;
-        const Both both = drawn(description, load_config("base"));
+        const TwoPictures both = drawn_twice(description, load_config("base"));
         EXPECT_FALSE(both.picture.counted);
         figure("voxels visited, of all", static_cast<double>(both.picture.report.voxels) /
                                               static_cast<double>(both.counted.report.voxels));
@@ -52,7 +52,7 @@ TEST(Picture, VisitsOnlyWhatCanChangeAPixel) {
 TEST(Picture, DrawsNoRecordThatTheCountingUnitHides) {
   auto description = view_of("binary-cube:40", 72);
   description.opacity_scale = 6.0;
-  const Both both = drawn(description, load_config("base"), 1000);
+  const TwoPictures both = drawn_twice(description, load_config("base"), 1000);
   EXPECT_FALSE(both.picture.counted);
   figure("records drawn", static_cast<double>(both.picture.report.splat_records));
   figure("records of the counting unit, hidden", static_cast<double>(both.counted.units.hidden_splats));
@@ -65,7 +65,7 @@ TEST(Picture, DrawsNoRecordThatTheCountingUnitHides) {
 TEST(Picture, CountsASplatInOneBand) {
   auto description = view_of("shells:24", 60);
   description.opacity_scale = 2e-5;
-  const Both both = drawn(description, load_config("exact"));  // a tile: records of several would be more
+  const TwoPictures both = drawn_twice(description, load_config("exact"));  // a tile: records of several would be more
   EXPECT_FALSE(both.picture.counted);
   figure("voxels", static_cast<double>(both.picture.report.voxels));
   EXPECT_EQ(both.picture.report.voxels, both.counted.report.voxels);
@@ -118,7 +118,7 @@ TEST(Picture, HasTheLossesOfVisiblePixels) {
   description.opacity_scale = 80.0;
   cmodel::Config config = load_config("base");
   config.pixel_int_bits = 0, config.freeze_below = 1;  // 1.0 is reached and saturates
-  const Both both = drawn(description, config);
+  const TwoPictures both = drawn_twice(description, config);
   EXPECT_FALSE(both.picture.counted);
   figure("saturated records", static_cast<double>(both.picture.report.saturated_records));
   figure("output words saturated", static_cast<double>(both.picture.counters.pixel_saturated));
@@ -134,7 +134,7 @@ TEST(Picture, LeavesOtherFramesToTheCountingUnits) {
     auto description = view_of("shells:16", 48);
     cmodel::Config config = load_config("base");
     change(description, config);
-    return drawn(description, config).picture.counted;
+    return drawn_twice(description, config).picture.counted;
   };
   EXPECT_TRUE(counted([](auto& d, auto&) { d.method = scene::Method::XRay; }));
   EXPECT_FALSE(counted([](auto& d, auto& c) {

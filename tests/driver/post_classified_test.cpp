@@ -38,7 +38,7 @@ cmodel::Config with_densities(const std::string& name) {
   return config;
 }
 
-Lsb8 measure(const scene::SceneDescription& description, const cmodel::Config& config, const std::string& what) {
+Lsb8 measure_post(const scene::SceneDescription& description, const cmodel::Config& config, const std::string& what) {
   const auto scene = scene::build_scene(description);
   const auto device = render(scene, config);
   EXPECT_EQ(device.counters.snap_saturated + device.counters.sheet_saturated, 0u);
@@ -59,8 +59,9 @@ TEST(PostOnDevice, base_is_within_50_db_of_golden) {
       auto description = post_view("marschner-lobb:24", 64, "ct-head");
       description.slab_width = width;
       description.slab_opacity = opacity;
-      const auto apart = measure(description, with_densities("base"),
-                                 std::string(width < 1.0 ? "half" : "whole") + " slabs, " + scene::to_string(opacity));
+      const auto apart =
+          measure_post(description, with_densities("base"),
+                       std::string(width < 1.0 ? "half" : "whole") + " slabs, " + scene::to_string(opacity));
       EXPECT_GE(apart.psnr_db, 50.0);
     }
   }
@@ -71,7 +72,8 @@ TEST(PostOnDevice, fine_is_within_57_db_of_golden) {
   for (const double zoom : {1.0, 3.0, 6.5}) {
     auto description = post_view("marschner-lobb:24", 64, "ct-head");
     description.camera.zoom = zoom;
-    const auto apart = measure(description, with_densities("fine"), "fine, zoom " + std::to_string(zoom).substr(0, 3));
+    const auto apart =
+        measure_post(description, with_densities("fine"), "fine, zoom " + std::to_string(zoom).substr(0, 3));
     EXPECT_GE(apart.psnr_db, 57.0);
   }
 }
@@ -83,11 +85,11 @@ TEST(PostOnDevice, perspective_is_within_50_db_of_golden_where_radius_sets_are_m
   auto description = post_view("marschner-lobb:24", 64, "ct-head");
   description.camera.projection = scene::Projection::Perspective;
   description.camera.fov = 45;
-  const double few = measure(description, with_densities("fine"), "fine, perspective, 8 sets").psnr_db;
+  const double few = measure_post(description, with_densities("fine"), "fine, perspective, 8 sets").psnr_db;
   auto config = with_densities("fine");
   config.rlut_columns = 512;
   config.rlut_sets = 64;
-  const double many = measure(description, config, "fine, perspective, 32 sets").psnr_db;
+  const double many = measure_post(description, config, "fine, perspective, 32 sets").psnr_db;
   EXPECT_GE(many, 50.0);
   EXPECT_GT(many, few);
 }
@@ -102,7 +104,7 @@ TEST(PostOnDevice, perspective_with_ellipses_is_within_50_db_of_golden) {
     auto config = with_densities(name);
     config.ellipse_frac_bits = 12;
     ASSERT_FALSE(cmodel::first_violation(config));
-    const auto apart = measure(description, config, std::string(name) + ", perspective, ellipses");
+    const auto apart = measure_post(description, config, std::string(name) + ", perspective, ellipses");
     EXPECT_GE(apart.psnr_db, 50.0);
   }
 }

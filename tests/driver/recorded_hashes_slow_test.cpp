@@ -47,7 +47,7 @@ struct Method {
   const char* name;
   void (*apply)(scene::SceneDescription&);
 };
-const Method kMethods[] = {
+const Method kHashedMethods[] = {
     {"image", [](scene::SceneDescription&) {}},
     {"image_additive", [](scene::SceneDescription& d) { d.slab_opacity = scene::SlabOpacity::Additive; }},
     {"image_half_slab", [](scene::SceneDescription& d) { d.slab_width = 0.5; }},
@@ -56,7 +56,7 @@ const Method kMethods[] = {
     {"xray", [](scene::SceneDescription& d) { d.method = scene::Method::XRay; }},
     {"xray_7", [](scene::SceneDescription& d) { d.method = scene::Method::XRay, d.xray_sheets = 7; }},
 };
-const Method kViews[] = {
+const Method kHashedViews[] = {
     {"front", [](scene::SceneDescription&) {}},
     {"turned", [](scene::SceneDescription& d) { d.camera.azimuth = 33, d.camera.elevation = 21, d.camera.roll = 5; }},
     {"near", [](scene::SceneDescription& d) { d.camera.azimuth = -50, d.camera.zoom = 2.3; }},
@@ -117,8 +117,8 @@ TEST(RecordedHashes, StreamsFramesCountersAndCycles) {
   std::set<std::string> frames;
   for (const auto& name : config_names()) {
     const auto config = load_config(name);
-    for (const Method& method : kMethods) {
-      for (const Method& view : kViews) {
+    for (const Method& method : kHashedMethods) {
+      for (const Method& view : kHashedViews) {
         for (const Content& content : kContents) {
           scene::SceneDescription description;
           description.volume = content.volume;

@@ -40,6 +40,9 @@ struct FetchStream {
   std::vector<std::size_t> wanted() const;
 };
 
+/// Of a stream in memory: three beats before a page ends.
+constexpr std::uint64_t kAddress = 0x8'0000'0fa0;
+
 /// Of a legal stream: sets hidden as the model says.
 FetchStream fetch_stream(const cmodel::Config& config, std::vector<cmodel::Beat> beats, std::uint64_t address);
 

@@ -17,8 +17,6 @@ namespace {
 
 using testbench::Pattern;
 
-constexpr std::uint64_t kAddress = 0x8'0000'0fa0;
-
 struct Tiles final : cmodel::PixelSink {
   std::vector<cmodel::TilePixels> tiles;
   void on_tile(cmodel::TilePixels&& tile) override { tiles.push_back(std::move(tile)); }

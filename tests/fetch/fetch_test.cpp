@@ -17,7 +17,6 @@ namespace {
 
 using testbench::Pattern;
 
-constexpr std::uint64_t kAddress = 0x8'0000'0fa0;              ///< three beats before a page ends
 constexpr unsigned kResponse = 1, kVerdict = 2, kCommand = 3;  ///< errors
 constexpr std::uint32_t kMostSets = 1024;                      ///< of a command: 2^SETS_LOG2
 constexpr unsigned kLatencies[] = {1, 7, 40, 45};              ///< the last: all that 64 beats of room hide

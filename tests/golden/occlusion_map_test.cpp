@@ -82,18 +82,18 @@ scene::Culling with(scene::VisibilityTest test, double freeze, double theta = 0.
 
 TEST(OcclusionMap, CountHidesExactlyTheWindowsThatAreOpaque) {
   Random random(2);
-  constexpr double kFreeze = 0.01;
+  constexpr double freeze = 0.01;
   long hidden = 0, seen = 0;
   for (int n = 0; n < 60; ++n) {
     const int width = 1 + below(random, 12), height = 1 + below(random, 12);
-    OcclusionMap map(width, height, with(scene::VisibilityTest::Count, kFreeze));
+    OcclusionMap map(width, height, with(scene::VisibilityTest::Count, freeze));
     const auto picture = random_picture(random, width * height);
     map.update(picture, std::vector<golden::Run>(static_cast<std::size_t>(height), golden::Run{0, width}));
     for_each_window(width, height, [&](const Window& window) {
       bool opaque = true;
       for (int y = window.top; y < window.bottom; ++y) {
         for (int x = window.left; x < window.right; ++x) {
-          opaque &= picture[static_cast<std::size_t>(y) * width + x].transmittance < kFreeze;
+          opaque &= picture[static_cast<std::size_t>(y) * width + x].transmittance < freeze;
         }
       }
       ASSERT_EQ(map.hides(window), opaque);

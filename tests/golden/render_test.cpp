@@ -15,8 +15,8 @@ namespace {
 
 using scene::Method;
 
-constexpr Method kMethods[] = {Method::RayCast, Method::XRay, Method::Westover, Method::AxisAligned,
-                               Method::ImageAligned};
+constexpr Method kRendered[] = {Method::RayCast, Method::XRay, Method::Westover, Method::AxisAligned,
+                                Method::ImageAligned};
 
 Lattice odd_view() {
   Lattice lattice;
@@ -32,7 +32,7 @@ Lattice odd_view() {
 
 TEST(Render, ThreadsDoNotChangeABit) {
   scene::Scene scene = make_scene(odd_view());
-  for (const Method method : kMethods) {
+  for (const Method method : kRendered) {
     scene.description.method = method;
     const Image one = render(scene, {1, {}});
     ASSERT_GT(max_opacity(one), 0.1) << scene::to_string(method);
@@ -77,7 +77,7 @@ TEST(Render, RayCasterRefusesShapedFootprints) {
 
 TEST(Render, NothingIsTransparent) {
   scene::Scene scene = make_empty_scene(odd_view());
-  for (const Method method : kMethods) {
+  for (const Method method : kRendered) {
     scene.description.method = method;
     const Image image = render(scene);
     ASSERT_EQ(image.data.size(), 71u * 53u * 4u);
@@ -105,7 +105,7 @@ TEST(Render, ColourNeverExceedsOpacity) {
 
 TEST(Render, ProgressReachesTheTotalOnce) {
   scene::Scene scene = make_scene(odd_view());
-  for (const Method method : kMethods) {
+  for (const Method method : kRendered) {
     scene.description.method = method;
     std::atomic<int> calls = 0, completions = 0;
     RenderOptions options;

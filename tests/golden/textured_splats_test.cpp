@@ -14,8 +14,8 @@ namespace {
 
 using scene::Method;
 
-constexpr int kPhases = 8;
-const scene::SplatTexture kTexture{.phases = kPhases, .amplitude = 0.8, .frame = 0, .scale = 0.4};
+constexpr int kSplatPhases = 8;
+const scene::SplatTexture kTexture{.phases = kSplatPhases, .amplitude = 0.8, .frame = 0, .scale = 0.4};
 
 Lattice block() {
   Lattice lattice;
@@ -109,10 +109,10 @@ TEST(TexturedSplats, PhasesCancelAndCarryNoEnergy) {
 TEST(TexturedSplats, MeanOverTheCycleIsThePlainSplat) {
   const Image plain = textured(Method::XRay, {});
   std::vector<double> mean(plain.data.size(), 0.0);
-  for (int frame = 0; frame < kPhases; ++frame) {
+  for (int frame = 0; frame < kSplatPhases; ++frame) {
     const Image image = textured(Method::XRay, at_frame(frame));
     EXPECT_NE(image, plain);
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += image.data[i] / static_cast<double>(kPhases);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += image.data[i] / static_cast<double>(kSplatPhases);
   }
   // Sums are linear in the footprints. The remaining errors are one rounding to float in each picture and one in the
   // plain picture. Each is at most half an ulp of the value, which is at most (1 + m) times the plain one.
@@ -197,7 +197,7 @@ TEST(TexturedSplats, DetailRisesAndTheLowBandStays) {
         if (u * u + v * v < 4.0) one[y * width + x] = kernel.footprint(u * u + v * v) * phase(u, v);
       }
     }
-    for (const double value : blurred(one, width, sigma)) per_splat += value * value / kPhases;
+    for (const double value : blurred(one, width, sigma)) per_splat += value * value / kSplatPhases;
   }
   const double voxels_on_a_ray = level / lattice.optical_depth;
   const double expected = kTexture.amplitude * std::sqrt(per_splat / (s * s) / voxels_on_a_ray);
@@ -225,8 +225,8 @@ TEST(TexturedSplats, AmplitudeZeroIsOffToTheLastBit) {
 TEST(TexturedSplats, StandStillUnlessCycledAndComeBack) {
   const Image first = textured(Method::ImageAligned, at_frame(3));
   EXPECT_EQ(textured(Method::ImageAligned, at_frame(3)), first);
-  EXPECT_EQ(textured(Method::ImageAligned, at_frame(3 + kPhases)), first);
-  EXPECT_EQ(textured(Method::ImageAligned, at_frame(3 + 1000 * kPhases)), first);
+  EXPECT_EQ(textured(Method::ImageAligned, at_frame(3 + kSplatPhases)), first);
+  EXPECT_EQ(textured(Method::ImageAligned, at_frame(3 + 1000 * kSplatPhases)), first);
   EXPECT_NE(textured(Method::ImageAligned, at_frame(4)), first);
 }
 

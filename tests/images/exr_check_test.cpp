@@ -34,7 +34,7 @@ const std::string kOnePart = word(20000630) + word(2);
 const std::string kParts = word(20000630) + word(2 | 1u << 12);
 const std::string kEnd = text("");
 
-std::string defect(const std::string& bytes) {
+std::string exr_defect_of(const std::string& bytes) {
   return exr_defect({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
@@ -81,10 +81,10 @@ const std::vector<std::pair<std::string, std::string>>& values() {
 TEST(ExrHeader, RightAttributesPass) {
   std::string all = kOnePart;
   for (const auto& [type, value] : values()) {
-    EXPECT_EQ(defect(kOnePart + attribute(type, value) + kEnd), "") << type;
+    EXPECT_EQ(exr_defect_of(kOnePart + attribute(type, value) + kEnd), "") << type;
     all += attribute(type, value);
   }
-  EXPECT_EQ(defect(all + kEnd + "pixels"), "");
+  EXPECT_EQ(exr_defect_of(all + kEnd + "pixels"), "");
   std::printf("[figure] types that pass = %zu\n", values().size());
 }
 
@@ -93,7 +93,7 @@ TEST(ExrHeader, AValueOfAnotherLengthIsNamed) {
   for (const auto& [type, value] : values()) {
     if (type == "string" || type == "unheard-of") continue;
     for (const std::string& other : {value + '\1', value.substr(0, value.size() - 1)}) {
-      EXPECT_THAT(defect(kOnePart + attribute(type, other) + kEnd), HasSubstr("at byte 8")) << type;
+      EXPECT_THAT(exr_defect_of(kOnePart + attribute(type, other) + kEnd), HasSubstr("at byte 8")) << type;
       ++refused;
     }
   }
@@ -104,27 +104,28 @@ TEST(ExrHeader, AValueOfAnotherLengthIsNamed) {
 TEST(ExrHeader, ALengthBeyondTheEndIsNamed) {
   for (const std::uint32_t length : {3u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
     const std::string bytes = kOnePart + text("a") + text("string") + word(length) + "xy";
-    EXPECT_EQ(defect(bytes), "an attribute of " + std::to_string(length) + " bytes exceeds the remaining 2 at byte 8");
+    EXPECT_EQ(exr_defect_of(bytes),
+              "an attribute of " + std::to_string(length) + " bytes exceeds the remaining 2 at byte 8");
   }
   // A list of texts with false lengths.
-  EXPECT_NE(defect(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kEnd), "");
+  EXPECT_NE(exr_defect_of(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kEnd), "");
   // 2^16 x 2^16 pixels: 0 as a number of 32 bits.
-  EXPECT_NE(defect(kOnePart + attribute("preview", word(1 << 16) + word(1 << 16)) + kEnd), "");
+  EXPECT_NE(exr_defect_of(kOnePart + attribute("preview", word(1 << 16) + word(1 << 16)) + kEnd), "");
 }
 
 TEST(ExrHeader, CutAnywhereIsNamed) {
   const std::string whole = kOnePart + attribute("int", "abcd") + attribute("string", "text") + kEnd;
-  for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(defect(whole.substr(0, size)), "") << size;
-  EXPECT_EQ(defect(whole), "");
+  for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(exr_defect_of(whole.substr(0, size)), "") << size;
+  EXPECT_EQ(exr_defect_of(whole), "");
 }
 
 TEST(ExrHeader, EveryPartIsWalked) {
   const std::string good = attribute("int", "abcd") + kEnd, bad = attribute("int", "abc") + kEnd;
-  EXPECT_EQ(defect(kParts + good + good + kEnd), "");
-  EXPECT_NE(defect(kParts + good + bad + kEnd), "");
-  EXPECT_NE(defect(kParts + good + good), "");
+  EXPECT_EQ(exr_defect_of(kParts + good + good + kEnd), "");
+  EXPECT_NE(exr_defect_of(kParts + good + bad + kEnd), "");
+  EXPECT_NE(exr_defect_of(kParts + good + good), "");
   // Behind the only header of a file of one part are its pixels.
-  EXPECT_EQ(defect(kOnePart + good + bad), "");
+  EXPECT_EQ(exr_defect_of(kOnePart + good + bad), "");
 }
 
 /// Attributes of all types that OpenImageIO can write, in files of one part, of tiles, and of two parts.
@@ -161,7 +162,7 @@ TEST(ExrHeader, FilesOfOpenImageIoPass) {
     }
     ASSERT_TRUE(out->close());
     const std::string bytes = file_text(folder / name);
-    EXPECT_EQ(defect(bytes), "") << name;
+    EXPECT_EQ(exr_defect_of(bytes), "") << name;
     std::printf("[figure] %s: %zu bytes pass\n", name, bytes.size());
   };
   write("lines.exr", {spec});

@@ -19,17 +19,17 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Case {
+struct Corrupt {
   const char* name;
   PixelKind kind;
   bool checksummed;  ///< every changed pixel byte must be noticed
 };
 
 // All formats in one test: every test is a process that has to load the image library.
-constexpr std::array kCases{Case{"f.exr", PixelKind::Float, false},    Case{"h.exr", PixelKind::Half, false},
-                            Case{"w.exr", PixelKind::RawWords, false}, Case{"8.png", PixelKind::Uint8, true},
-                            Case{"16.png", PixelKind::Uint16, true},   Case{"8.tif", PixelKind::Uint8, false},
-                            Case{"16.tif", PixelKind::Uint16, false},  Case{"f.tif", PixelKind::Float, false}};
+constexpr std::array kCases{Corrupt{"f.exr", PixelKind::Float, false},    Corrupt{"h.exr", PixelKind::Half, false},
+                            Corrupt{"w.exr", PixelKind::RawWords, false}, Corrupt{"8.png", PixelKind::Uint8, true},
+                            Corrupt{"16.png", PixelKind::Uint16, true},   Corrupt{"8.tif", PixelKind::Uint8, false},
+                            Corrupt{"16.tif", PixelKind::Uint16, false},  Corrupt{"f.tif", PixelKind::Float, false}};
 
 Image smooth_image() {
   Image image(37, 23, 4);
@@ -57,7 +57,7 @@ enum class Outcome { Same, Different, Refused };
 /// A valid file and the result of reading its damaged copies.
 class Specimen {
  public:
-  explicit Specimen(const Case& format) : format_(format) {
+  explicit Specimen(const Corrupt& format) : format_(format) {
     write(folder_ / format.name, format.kind);
     whole_ = file_text(folder_ / format.name);
     image_ = read_image(folder_ / format.name).image;
@@ -79,14 +79,14 @@ class Specimen {
   }
 
  private:
-  Case format_;
+  Corrupt format_;
   TempFolder folder_;
   std::string whole_;
   Image image_;
 };
 
 TEST(DamagedImage, TruncatedAnywhereIsRefused) {
-  for (const Case& format : kCases) {
+  for (const Corrupt& format : kCases) {
     const Specimen specimen(format);
     const std::string& whole = specimen.whole();
     testing::internal::CaptureStderr();
@@ -102,7 +102,7 @@ TEST(DamagedImage, TruncatedAnywhereIsRefused) {
 }
 
 TEST(DamagedImage, OneByteChangedLoadsWholeOrIsRefused) {
-  for (const Case& format : kCases) {
+  for (const Corrupt& format : kCases) {
     const Specimen specimen(format);
     std::mt19937 generator(2026);
     testing::internal::CaptureStderr();
@@ -201,7 +201,7 @@ class SmallDisk {
 };
 
 TEST(FullDisk, LeavesNothing) {
-  for (const Case& format : kCases) {
+  for (const Corrupt& format : kCases) {
     const std::string whole = Specimen(format).whole();
     const TempFolder folder;
     std::fflush(stdout);
@@ -226,7 +226,7 @@ TEST(FullDisk, LeavesNothing) {
 }
 
 TEST(FullDisk, KeepsTheOldFile) {
-  for (const Case& format : kCases) {
+  for (const Corrupt& format : kCases) {
     const std::string whole = Specimen(format).whole();
     const TempFolder folder;
     write_bytes(folder / format.name, "old");

@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string defect(const std::string& bytes) {
+std::string png_defect_of(const std::string& bytes) {
   return png_defect({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
@@ -26,19 +26,19 @@ const std::string kPixels = rows({"abc", "def"});
 
 TEST(PngCheck, AcceptsAWholeFileInOneOrManyPieces) {
   const std::string packed = deflated(kPixels);
-  EXPECT_EQ(defect(kSignature + header(3, 2, 8, 0, 0) + chunk("IDAT", packed) + kEnd), "");
+  EXPECT_EQ(png_defect_of(kSignature + header(3, 2, 8, 0, 0) + chunk("IDAT", packed) + kEnd), "");
   std::string pieces;
   for (const char c : packed) pieces += chunk("IDAT", std::string(1, c)) + chunk("IDAT", "");
-  EXPECT_EQ(
-      defect(kSignature + header(3, 2, 8, 0, 0) + chunk("tEXt", "k\0v") + pieces + chunk("tIME", "1234567") + kEnd),
-      "");
+  EXPECT_EQ(png_defect_of(kSignature + header(3, 2, 8, 0, 0) + chunk("tEXt", "k\0v") + pieces +
+                          chunk("tIME", "1234567") + kEnd),
+            "");
 }
 
 TEST(PngCheck, AcceptsInterlacedFilesAndTheyRead) {
   // 3 x 2 in Adam7: pass 1 (0,0); passes 2 and 3 have no pixel; pass 4 (2,0); pass 5 none; pass 6 (1,0); pass 7 row 1.
   const std::string file =
       kSignature + header(3, 2, 8, 0, 1) + chunk("IDAT", deflated(rows({"a", "c", "b", "def"}))) + kEnd;
-  EXPECT_EQ(defect(file), "");
+  EXPECT_EQ(png_defect_of(file), "");
   const TempFolder folder;
   write_bytes(folder / "a.png", file);
   const Image image = read_image(folder / "a.png").image;
@@ -51,12 +51,12 @@ TEST(PngCheck, AcceptsPalettesAndFewBits) {
   const std::string palette = chunk("PLTE", std::string("\xff\x00\x00\x00\xff\x00", 6));
   const std::string pixels = chunk("IDAT", deflated(std::string("\0\x40", 2)));  // one row, bits 0 1 0
   const std::string file = kSignature + header(3, 1, 1, 3, 0) + palette + pixels + kEnd;
-  EXPECT_EQ(defect(file), "");
+  EXPECT_EQ(png_defect_of(file), "");
   const TempFolder folder;
   write_bytes(folder / "a.png", file);
   const Image image = read_image(folder / "a.png").image;
   EXPECT_EQ(image.data, (std::vector<float>{1, 0, 0, 0, 1, 0, 1, 0, 0}));
-  EXPECT_THAT(defect(kSignature + header(3, 1, 1, 3, 0) + pixels + kEnd), HasSubstr("no palette"));
+  EXPECT_THAT(png_defect_of(kSignature + header(3, 1, 1, 3, 0) + pixels + kEnd), HasSubstr("no palette"));
 }
 
 TEST(PngCheck, NamesEveryDefect) {
@@ -98,7 +98,7 @@ TEST(PngCheck, NamesEveryDefect) {
   };
   int checked = 0;
   for (const auto& [bytes, expected] : cases) {
-    EXPECT_THAT(defect(bytes), HasSubstr(expected));
+    EXPECT_THAT(png_defect_of(bytes), HasSubstr(expected));
     ++checked;
   }
   EXPECT_EQ(checked, 23);

@@ -120,7 +120,7 @@ TEST(DensityChain, AllDeviceIsTheIntegerModelForEveryKindOfIndex) {
 }
 
 /// Views that take every path through golden's stage.
-std::vector<scene::SceneDescription> views(int size) {
+std::vector<scene::SceneDescription> density_views(int size) {
   std::vector<scene::SceneDescription> all;
   for (scene::SceneDescription& description : small_density_scenes()) {
     description.width = size;
@@ -139,7 +139,7 @@ std::vector<scene::SceneDescription> views(int size) {
 
 TEST(DensityChain, AllRealIsGoldenFloatByFloat) {
   std::uint64_t frames = 0, floats = 0, different = 0, lit = 0;
-  std::vector<scene::SceneDescription> all = views(48);
+  std::vector<scene::SceneDescription> all = density_views(48);
   Random random(seed_or(2112));
   while (all.size() < 30) all.push_back(random_density_scene(random));
   for (const scene::SceneDescription& description : all) {
@@ -163,7 +163,7 @@ TEST(DensityChain, AllRealIsGoldenFloatByFloat) {
 }
 
 TEST(DensityChain, ThreadsChangeNothing) {
-  const scene::Scene scene = scene::build_scene(views(70).front());
+  const scene::Scene scene = scene::build_scene(density_views(70).front());
   const cmodel::Config config = with_densities("base");
   const Chain chain(scene, config);
   for (const Mixture& mixture : {Mixture{}, Mixture::all_device(), Mixture{Step::Slope}})

@@ -12,10 +12,10 @@ namespace fastsplat::stages {
 namespace {
 
 TEST(RealNarrowing, OnWordsItIsTheDevicesOwn) {
-  test::Random random(test::seed_or(11));
+  fastsplat::test::Random random(fastsplat::test::seed_or(11));
   std::uint64_t compared = 0, inexact = 0, cut = 0;
   for (int n = 0; n < 300; ++n) {
-    const cmodel::Config config = test::random_config(random);
+    const cmodel::Config config = fastsplat::test::random_config(random);
     for (std::size_t s = 0; s < cmodel::kSiteCount; ++s) {
       const auto site = static_cast<cmodel::Site>(s);
       if (cmodel::is_sum(site)) continue;  // they are cut, not rounded

@@ -20,8 +20,6 @@ using ::testing::Not;
 
 constexpr double kFloat = 1e-6;  // logarithms and logits there and back
 
-void figure(const std::string& name, double value) { std::printf("[figure] %s = %.3g\n", name.c_str(), value); }
-
 /// The same Gaussians with `degree` of their harmonics.
 GaussianCloud of_degree(const GaussianCloud& from, int degree) {
   GaussianCloud out = from;

@@ -166,6 +166,8 @@ Apart apart(const GaussianCloud& a, const GaussianCloud& b) {
   return worst;
 }
 
+void figure(const std::string& name, double value) { std::printf("[figure] %s = %.3g\n", name.c_str(), value); }
+
 void print(const std::string& name, const Apart& apart) {
   std::printf(
       "[figure] %s: position %.2g, log scale %.2g, rotation %.2g, opacity %.2g, colour %.2g, harmonics %.2g and %.2g\n",

@@ -56,6 +56,8 @@ struct Apart {
   double harmonics = 0.0;  ///< of degrees above
 };
 Apart apart(const GaussianCloud& a, const GaussianCloud& b);
+/// Prints a figure.
+void figure(const std::string& name, double value);
 /// Prints them as one figure.
 void print(const std::string& name, const Apart& apart);
 

@@ -19,14 +19,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 PlyTable twenty() { return table_of(make_synthetic_gaussians("shells:20")); }
-GaussianCloud read(const std::string& text) {
+GaussianCloud read_ply(const std::string& text) {
   const TestFile file(".ply", text);
   return load_gaussians(file.path());
 }
 GaussianCloud read_with(const std::vector<std::string>& comments) {
   std::string lines;
   for (const auto& comment : comments) lines += "comment " + comment + "\n";
-  return read(twenty().text("binary_little_endian", "float", lines));
+  return read_ply(twenty().text("binary_little_endian", "float", lines));
 }
 
 TEST(GaussianHints, VerticalAxis) {
@@ -122,7 +122,7 @@ TEST(GaussianHints, ColourSpaceOfSharp) {
   for (const char value : {'\0', '\1', '\2'}) {
     std::string text = replaced(twenty().text("binary_little_endian"), "end_header\n",
                                 "element color_space 1\nproperty uchar color_space\nend_header\n");
-    const GaussianCloud cloud = read(text + value);
+    const GaussianCloud cloud = read_ply(text + value);
     EXPECT_EQ(cloud.linear, value == '\1');
     EXPECT_EQ(cloud.remarks.size(), value == '\2' ? 1U : 0U);
   }
@@ -140,14 +140,14 @@ TEST(GaussianHints, AreWrittenAndReadAgain) {
 
 // s' = sqrt(s^2 + f^2), and opacity times the root of the determinants' ratio: for s = f, 2^(-3/2) of it.
 TEST(GaussianProperties, SmoothingFilterOfMipSplatting) {
-  const GaussianCloud plain = read(twenty().text("binary_little_endian", "double"));
+  const GaussianCloud plain = read_ply(twenty().text("binary_little_endian", "double"));
   for (const char* name : {"filter_3D", "filter_3d"}) {
     PlyTable table = twenty().and_of(name, 0.0);
     const auto column = table.names.size() - 1;
     for (std::size_t row = 0; row < 20; ++row) table.rows[row][column] = 0.01 * static_cast<double>(row);
     table =
         table.with("scale_0", std::log(0.04), 4).with("scale_1", std::log(0.04), 4).with("scale_2", std::log(0.04), 4);
-    const GaussianCloud smoothed = read(table.text("binary_little_endian", "double"));
+    const GaussianCloud smoothed = read_ply(table.text("binary_little_endian", "double"));
     EXPECT_THAT(smoothed.remarks, ElementsAre());
     EXPECT_NEAR(double(smoothed.gaussians[4].opacity), double(plain.gaussians[4].opacity) / std::sqrt(8.0), 1e-7);
     double worst = 0.0;
@@ -169,8 +169,8 @@ TEST(GaussianProperties, SmoothingFilterOfMipSplatting) {
 }
 
 TEST(GaussianProperties, TwoScalesAreDiscs) {
-  const GaussianCloud cloud = read(twenty().without("scale_2").text("ascii"));
-  const GaussianCloud other = read(twenty().text("ascii"));
+  const GaussianCloud cloud = read_ply(twenty().without("scale_2").text("ascii"));
+  const GaussianCloud other = read_ply(twenty().text("ascii"));
   ASSERT_EQ(cloud.gaussians.size(), 20U);
   EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("two scales")));
   for (std::size_t i = 0; i < 20; ++i) {
@@ -195,7 +195,7 @@ std::string with_rgb(const std::string& type, double white, double red) {
 TEST(GaussianProperties, RedGreenBlueAreColours) {
   for (const auto& [type, white] :
        {std::pair{"uchar", 255.0}, std::pair{"ushort", 65535.0}, std::pair{"float", 1.0}, std::pair{"double", 1.0}}) {
-    const GaussianCloud cloud = read(with_rgb(type, white, 0.2));
+    const GaussianCloud cloud = read_ply(with_rgb(type, white, 0.2));
     ASSERT_EQ(cloud.gaussians.size(), 20U);
     EXPECT_EQ(cloud.degree, 0);
     EXPECT_THAT(cloud.remarks, ElementsAre()) << type;
@@ -204,29 +204,29 @@ TEST(GaussianProperties, RedGreenBlueAreColours) {
     EXPECT_NEAR(seen.y, 0.4F, 1e-6F) << type;
     EXPECT_NEAR(seen.z, 1.0F, 1e-6F) << type;
   }
-  EXPECT_THAT([] { read(with_rgb("float", 255.0, 0.2)); },
+  EXPECT_THAT([] { read_ply(with_rgb("float", 255.0, 0.2)); },
               ::testing::ThrowsMessage<UserError>(HasSubstr("red is out of range (expected 0..1")));
-  EXPECT_THAT([] { read(with_rgb("int", 255.0, 0.2)); }, ::testing::ThrowsMessage<UserError>(HasSubstr("uchar")));
+  EXPECT_THAT([] { read_ply(with_rgb("int", 255.0, 0.2)); }, ::testing::ThrowsMessage<UserError>(HasSubstr("uchar")));
   // Each by its own type.
   const std::string mixed = replaced(with_rgb("float", 1.0, 200.0), "property float red", "property uchar red");
-  const glm::vec3 seen = 0.5F + 0.28209479F * read(mixed).harmonics[7];
+  const glm::vec3 seen = 0.5F + 0.28209479F * read_ply(mixed).harmonics[7];
   EXPECT_NEAR(seen.x, 200.0F / 255.0F, 1e-6F);
   EXPECT_NEAR(seen.y, 0.4F, 1e-6F);
   // Beside harmonics they are the same colours once more.
-  EXPECT_THAT(read(twenty().and_of("red", 7.0).text("ascii")).remarks, ElementsAre());
+  EXPECT_THAT(read_ply(twenty().and_of("red", 7.0).text("ascii")).remarks, ElementsAre());
 }
 
 TEST(GaussianProperties, UnknownOnesAreReportedAndNormalsAreNot) {
-  EXPECT_THAT(read(twenty().text("ascii")).remarks, ElementsAre());
-  EXPECT_THAT(read(twenty().and_of("motion_0", 1.0).and_of("trbf_center", 1.0).text("ascii")).remarks,
+  EXPECT_THAT(read_ply(twenty().text("ascii")).remarks, ElementsAre());
+  EXPECT_THAT(read_ply(twenty().and_of("motion_0", 1.0).and_of("trbf_center", 1.0).text("ascii")).remarks,
               ElementsAre(HasSubstr("not used: motion_0 trbf_center")));
   PlyTable many = twenty();
   for (int i = 0; i < 12; ++i) many = many.and_of("feature_" + std::to_string(i), 0.0);
-  EXPECT_THAT(read(many.text("ascii")).remarks, ElementsAre(HasSubstr("feature_7 and 4 others")));
+  EXPECT_THAT(read_ply(many.text("ascii")).remarks, ElementsAre(HasSubstr("feature_7 and 4 others")));
   const std::string moves =
       replaced(twenty().text("ascii"), "end_header\n", "element delta_vertex_0 1\nproperty float x\nend_header\n") +
       "0\n";
-  EXPECT_THAT(read(moves).remarks, ElementsAre(HasSubstr("move")));
+  EXPECT_THAT(read_ply(moves).remarks, ElementsAre(HasSubstr("move")));
 }
 
 TEST(GaussianProperties, ScalesThatAreNotLogarithmsAreReported) {
@@ -235,8 +235,8 @@ TEST(GaussianProperties, ScalesThatAreNotLogarithmsAreReported) {
     table = table.with("opacity", 0.5, row);
     for (const char* name : {"scale_0", "scale_1", "scale_2"}) table = table.with(name, 0.02, row);
   }
-  EXPECT_THAT(read(table.text("ascii")).remarks, ElementsAre(HasSubstr("check that this is right")));
-  EXPECT_THAT(read(table.with("opacity", 2.0).text("ascii")).remarks, ElementsAre());
+  EXPECT_THAT(read_ply(table.text("ascii")).remarks, ElementsAre(HasSubstr("check that this is right")));
+  EXPECT_THAT(read_ply(table.with("opacity", 2.0).text("ascii")).remarks, ElementsAre());
 }
 
 TEST(GaussianProperties, OtherKindsOfFilesAreNamed) {
@@ -255,7 +255,7 @@ TEST(GaussianProperties, OtherKindsOfFilesAreNamed) {
   };
   for (const auto& one : files) {
     try {
-      read(one.text);
+      read_ply(one.text);
       ADD_FAILURE() << one.said[0] << ": it was taken";
     } catch (const UserError& error) {
       std::printf("%s\n", error.what());

@@ -90,14 +90,14 @@ TEST(Ksplat, IsReadToWithinItsSteps) {
       EXPECT_THAT(read.remarks, ElementsAre());
       const Apart off = apart(cloud, read);
       print(std::string(name) + ", level " + std::to_string(level), off);
-      constexpr double kFloat = 1e-6, kHalf = 1.0 / 2048.0;  // a half has 11 bits
-      EXPECT_LE(off.position, level == 0 ? 0.0 : 0.25 * kBlock / kRange + kFloat);
-      EXPECT_LE(off.scale, level == 0 ? kFloat : kHalf + kFloat);
-      EXPECT_LE(off.rotation, level == 0 ? kFloat : 2.0 * kHalf * kHalf + kFloat);
-      EXPECT_LE(off.opacity, 0.5 / 255.0 + kFloat);
-      EXPECT_LE(off.colour, 0.5 / 255.0 + kFloat);
+      constexpr double single = 1e-6, half = 1.0 / 2048.0;  // a half has 11 bits
+      EXPECT_LE(off.position, level == 0 ? 0.0 : 0.25 * kBlock / kRange + single);
+      EXPECT_LE(off.scale, level == 0 ? single : half + single);
+      EXPECT_LE(off.rotation, level == 0 ? single : 2.0 * half * half + single);
+      EXPECT_LE(off.opacity, 0.5 / 255.0 + single);
+      EXPECT_LE(off.colour, 0.5 / 255.0 + single);
       const double rest = std::max(off.harmonic, off.harmonics);
-      EXPECT_LE(rest, level == 0 ? 0.0 : level == 1 ? 0.25 * kHalf : 0.5 * (kMost - kLeast) / 255.0 + kFloat);
+      EXPECT_LE(rest, level == 0 ? 0.0 : level == 1 ? 0.25 * half : 0.5 * (kMost - kLeast) / 255.0 + single);
     }
   }
 }

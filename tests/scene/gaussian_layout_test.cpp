@@ -90,7 +90,7 @@ TEST(GaussianLayout, ElementsBehindTheVerticesAreCounted) {
   EXPECT_THAT([&] { load_gaussians(more.path()); }, ::testing::ThrowsMessage<UserError>(HasSubstr("longer")));
 }
 
-std::string splat() {
+std::string large_splat() {
   const TestFile file(".splat", "");
   save_gaussians(make_synthetic_gaussians("cloud:400"), file.path());
   return bytes_of(file.path());
@@ -110,8 +110,8 @@ TEST(OtherFormats, AreNamedByContentAndByEnding) {
       {"sog by ending", ".sog", "nothing", {"no directory"}},
       {"zip", ".ply", std::string("PK\3\4", 4) + std::string(99, 'x'), {"a zip archive", "unpack"}},
       {"checkpoint", ".ckpt", std::string("PK\3\4", 4) + std::string(99, 'x'), {"checkpoint", "ns-export"}},
-      {"splat named ply", ".ply", splat(), {".splat file with another extension", "rename"}},
-      {"splat named dat", ".dat", splat(), {".splat file with another extension", "rename"}},
+      {"splat named ply", ".ply", large_splat(), {".splat file with another extension", "rename"}},
+      {"splat named dat", ".dat", large_splat(), {".splat file with another extension", "rename"}},
       {"text", ".txt", "hello world", {".ply, .splat, .spz, .sog, .ksplat or glTF"}},
   };
   for (const auto& one : files) {

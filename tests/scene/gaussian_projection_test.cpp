@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.hpp"
 #include "base/parallel/parallel.hpp"
 #include "scene/gaussians/harmonics.hpp"
 #include "scene/gaussians/projected_gaussian.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
+#include "tests/scene/gaussian_helper.hpp"
 
 namespace fastsplat::scene {
 namespace {
-
-void figure(const char* name, double value) { std::printf("[figure] %s = %.3g\n", name, value); }
 
 GaussianScene scene_of(GaussianCloud cloud, GaussianDescription description) {
   return build_gaussian_scene(description, std::make_shared<GaussianCloud>(std::move(cloud)));

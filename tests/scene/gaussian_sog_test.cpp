@@ -137,7 +137,7 @@ std::string archive(const Files& files, int level = 0) {
   return bytes_of(file.path());
 }
 
-GaussianCloud read(const std::string& bytes) {
+GaussianCloud read_sog(const std::string& bytes) {
   const TestFile file(".dat", bytes);  // by content
   return load_gaussians(file.path());
 }
@@ -160,7 +160,7 @@ TEST(Sog, IsReadToWithinItsSteps) {
       const GaussianCloud cloud = make_synthetic_gaussians(name);
       const Files files = sog(cloud, first_version);
       for (const int level : {0, 6}) {
-        const GaussianCloud again = read(archive(files, level));
+        const GaussianCloud again = read_sog(archive(files, level));
         EXPECT_THAT(again.remarks, ElementsAre());
         const Apart off = apart(cloud, again);
         if (level == 0) print(std::string(name) + (first_version ? ", version 1" : ", version 2"), off);
@@ -209,7 +209,7 @@ TEST(Sog, CodesWithoutMeaningAreDropped) {
   Json& book = meta["scales"]["codebook"];
   book.erase(book.begin() + 150, book.end());
   files["meta.json"] = meta.dump();
-  const GaussianCloud again = read(archive(files));
+  const GaussianCloud again = read_sog(archive(files));
   ASSERT_FALSE(again.dropped.empty());
   std::size_t dropped = 0;
   for (const DroppedGaussians& some : again.dropped) dropped += some.count;

@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-void figure(const char* name, double value) { std::printf("[figure] %s = %.3g\n", name, value); }
-
 std::shared_ptr<const GaussianCloud> cloud(const char* name = "cloud:300") {
   return std::make_shared<GaussianCloud>(make_synthetic_gaussians(name));
 }
@@ -87,7 +85,7 @@ double worst_distance(const GaussianScene& scene, const Oblique& camera, double 
   return worst;
 }
 
-std::string refusal(const Json& json, const std::optional<glm::ivec2>& size = {}) {
+std::string refusal_of_cameras(const Json& json, const std::optional<glm::ivec2>& size = {}) {
   const TestFile file(".json", json.dump());
   try {
     load_cameras(file.path(), size);
@@ -233,7 +231,7 @@ TEST(PlacedCamera, FilesOfBlenderHaveAnAngleAndNoSize) {
   EXPECT_NEAR(read.focal.x, 400.0 / std::tan(0.345), 1e-9);
   EXPECT_EQ(read.focal.x, read.focal.y);
   EXPECT_EQ(read.centre, glm::dvec2(399.5, 299.5));
-  EXPECT_NE(refusal(json).find("add --size"), std::string::npos);
+  EXPECT_NE(refusal_of_cameras(json).find("add --size"), std::string::npos);
   json["camera_angle_y"] = 0.5;
   const TestFile both(".json", json.dump());
   EXPECT_NEAR(load_cameras(both.path(), glm::ivec2(800, 600)).cameras.at(0).intrinsics->focal.y, 300.0 / std::tan(0.25),
@@ -293,7 +291,7 @@ TEST(PlacedCamera, DamagedFilesAreRefusedInOneLine) {
       {with(whole, "w", {}), "add --size"},
   };
   for (const auto& [json, word] : cases) {
-    const std::string message = refusal(json);
+    const std::string message = refusal_of_cameras(json);
     std::printf("[figure] %s\n", message.substr(message.rfind('/') + 1).c_str());
     EXPECT_NE(message.find(word), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-SceneDescription perspective() {
+SceneDescription in_perspective() {
   SceneDescription d;
   d.volume = "point:9";
   d.width = d.height = 32;
@@ -27,7 +27,7 @@ std::string refused(const SceneDescription& d) {
 }
 
 TEST(Techniques, DepthOfFieldNeedsPerspective) {
-  SceneDescription d = perspective();
+  SceneDescription d = in_perspective();
   d.lens = {DepthOfField::Splats, 4.0, 0.0};
   build_scene(d);
   d.camera.projection = Projection::Orthographic;
@@ -35,7 +35,7 @@ TEST(Techniques, DepthOfFieldNeedsPerspective) {
 }
 
 TEST(Techniques, FocusLiesInFrontOfTheEye) {
-  SceneDescription d = perspective();
+  SceneDescription d = in_perspective();
   const double eye = build_scene(d).camera.eye_distance();
   d.lens = {DepthOfField::Splats, 4.0, -0.999 * eye};
   build_scene(d);
@@ -48,7 +48,7 @@ TEST(Techniques, FocusLiesInFrontOfTheEye) {
 }
 
 TEST(Techniques, MotionStaysInFrontOfTheEye) {
-  SceneDescription d = perspective();
+  SceneDescription d = in_perspective();
   const Scene scene = build_scene(d);
   const double room = scene.camera.eye_distance() - scene.volume->bounding_radius() - scene.kernel.radius();
   d.motion.translate = {0.0, 1.99 * room, 0.0};
@@ -64,7 +64,7 @@ TEST(Techniques, MotionStaysInFrontOfTheEye) {
 // c(z) = A f |z - zf| / (z (zf - f)) on a film that spans the image, at the image's distance zi, 1/zi = 1/f - 1/zf. For
 // any f, that is A |s(z) - s(zf)| pixels (N-8-40).
 TEST(Techniques, CircleOfConfusionIsTheThinLens) {
-  SceneDescription d = perspective();
+  SceneDescription d = in_perspective();
   d.lens = {DepthOfField::Splats, 4.0, 1.5};
   const Scene scene = build_scene(d);
   const double eye = scene.camera.eye_distance();

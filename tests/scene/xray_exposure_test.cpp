@@ -24,7 +24,7 @@ SceneDescription xray_from(double azimuth, double elevation) {
   return description;
 }
 
-Scene scene_of(const SceneDescription& description, volume::Volume volume) {
+Scene exposed(const SceneDescription& description, volume::Volume volume) {
   return build_scene(description, std::make_shared<const volume::Volume>(std::move(volume)));
 }
 
@@ -91,7 +91,7 @@ TEST(XrayExposure, SparseVolumesAreNotDark) {
                   [](int i, int j, int k) { return (i % 16 == 8 && j % 16 == 8) || (k == 20 && i == j) ? 200 : 0; });
   double best = 0.0;
   for (const auto& [azimuth, elevation] : {std::pair{0.0, 0.0}, {90.0, 0.0}, {0.0, 90.0}, {45.0, 0.0}, {20.0, 30.0}}) {
-    const Scene scene = scene_of(xray_from(azimuth, elevation), rods);
+    const Scene scene = exposed(xray_from(azimuth, elevation), rods);
     const double reach = scene.kernel.radius();
     const auto splats = collect_splats(scene);
     double brightest = 0.0;

@@ -27,7 +27,7 @@ class Miscounting final : public PassingDevice {
   std::uint64_t cmodel::StallCounters::*field_;
 };
 
-VerifyOptions tiny() {
+VerifyOptions tiny_at_random() {
   VerifyOptions options;
   options.config = driver::load_config("tiny");
   options.ready = "random-50";
@@ -42,7 +42,7 @@ BeatSource mixed(const cmodel::Config& config) {
 
 TEST(CheckedCycles, ModelAndRtlAgreeUnderPatternsAndAfterAReset) {
   for (const std::uint64_t reset_after : {0u, 40u}) {
-    VerifyOptions options = tiny();
+    VerifyOptions options = tiny_at_random();
     options.reset_after = reset_after;
     const auto result = verify(mixed(options.config), options);
     EXPECT_EQ(result.verdict, Verdict::Pass);
@@ -64,7 +64,7 @@ TEST(CheckedCycles, OneCycleMoreInAnyCounterIsAMismatch) {
 #define X(name, counter, meaning) Counter{&Cycles::name, meaning},
   for (const auto& [field, meaning] : {FASTSPLAT_STALL_COUNTERS(X)}) {
 #undef X
-    VerifyOptions options = tiny();
+    VerifyOptions options = tiny_at_random();
     options.device = [&, field = field](cmodel::PixelSink& pixels, const RtlOptions& rtl) {
       return std::make_unique<Miscounting>(make_rtl_device(options.config, pixels, rtl), field);
     };
@@ -79,7 +79,7 @@ TEST(CheckedCycles, OneCycleMoreInAnyCounterIsAMismatch) {
 }
 
 TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
-  VerifyOptions options = tiny();
+  VerifyOptions options = tiny_at_random();
   options.ready = "always";
   options.timeout = 0;  // any wait is a hang
   const auto result = verify(mixed(options.config), options);
@@ -90,7 +90,7 @@ TEST(CheckedCycles, AreAbsentOfARunThatDidNotEnd) {
 
 // A sink that is rarely ready takes a picture in a hundred times the longest wait of a device.
 TEST(CheckedCycles, ASlowSinkIsNotAHang) {
-  VerifyOptions options = tiny();
+  VerifyOptions options = tiny_at_random();
   options.ready = "every-100";
   options.input = "always";
   options.timeout = 400;

@@ -45,7 +45,7 @@ std::set<std::string> tests_of_the_sources() {
     for (auto& name : all_matches(entry.path(), "_test.cpp", test)) out.insert(name);
   }
   const std::string rtl = read_text_file(kSource / "tests" / "rtl" / "CMakeLists.txt");
-  static const std::regex single(R"(\brtl_test\((\w+) )"), loop(R"(foreach\(config ([\w ]+)\))");
+  static const std::regex single(R"(\brtl_(?:test|proof)\((\w+) )"), loop(R"(foreach\(config ([\w ]+)\))");
   for (std::sregex_iterator match(rtl.begin(), rtl.end(), single), end; match != end; ++match)
     out.insert("rtl." + (*match)[1].str());
   for (std::sregex_iterator match(rtl.begin(), rtl.end(), loop), end; match != end; ++match) {
@@ -163,7 +163,7 @@ TEST(Plan, RefusesUnknownPlans) {
   std::filesystem::remove(path);
 }
 
-Testpoint point_of(const std::string& name, std::vector<std::string> campaigns, std::vector<std::string> bins) {
+Testpoint testpoint_of(const std::string& name, std::vector<std::string> campaigns, std::vector<std::string> bins) {
   return {.name = name,
           .proves = "x",
           .campaigns = std::move(campaigns),
@@ -180,9 +180,9 @@ TEST(Closure, CountsATestpointsOwnCampaignsOnly) {
   input.planned.declare("g", "x");
   Coverage& other = input.book.campaigns["hazards"];
   other.hit(other.declare("g", "x"));
-  EXPECT_FALSE(close_coverage({{point_of("p", {"bubbles"}, {"g.x"})}}, {input}, {}).findings.empty());
-  EXPECT_TRUE(close_coverage({{point_of("p", {"hazards"}, {"g.x"})}}, {input}, {}).findings.empty());
-  EXPECT_TRUE(close_coverage({{point_of("p", {"all"}, {"g.*"})}}, {input}, {}).findings.empty());
+  EXPECT_FALSE(close_coverage({{testpoint_of("p", {"bubbles"}, {"g.x"})}}, {input}, {}).findings.empty());
+  EXPECT_TRUE(close_coverage({{testpoint_of("p", {"hazards"}, {"g.x"})}}, {input}, {}).findings.empty());
+  EXPECT_TRUE(close_coverage({{testpoint_of("p", {"all"}, {"g.*"})}}, {input}, {}).findings.empty());
 }
 
 TEST(Closure, IsRedForEveryKindOfGap) {
@@ -196,15 +196,15 @@ TEST(Closure, IsRedForEveryKindOfGap) {
     for (const auto& finding : close_coverage({{point}}, {input}, results).findings) text += finding + "\n";
     return text;
   };
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.x"})), "");
-  EXPECT_EQ(findings(point_of("p", {"hazard"}, {"g.x"})), "p: unknown campaign hazard\np, c: g.x was never hit\n");
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.x", "g.y"})), "p: unknown bin g.y\n");
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"h.*"})),
+  EXPECT_EQ(findings(testpoint_of("p", {"hazards"}, {"g.x"})), "");
+  EXPECT_EQ(findings(testpoint_of("p", {"hazard"}, {"g.x"})), "p: unknown campaign hazard\np, c: g.x was never hit\n");
+  EXPECT_EQ(findings(testpoint_of("p", {"hazards"}, {"g.x", "g.y"})), "p: unknown bin g.y\n");
+  EXPECT_EQ(findings(testpoint_of("p", {"hazards"}, {"h.*"})),
             "c: bin g.x belongs to no testpoint\np: unknown bin h.*\nno bins were checked\n");
   run.declare("g", "z");
-  EXPECT_EQ(findings(point_of("p", {"hazards"}, {"g.*"})), "c, hazards: bin g.z is not declared\n");
+  EXPECT_EQ(findings(testpoint_of("p", {"hazards"}, {"g.*"})), "c, hazards: bin g.z is not declared\n");
   input.planned.declare("g", "z");
-  Testpoint tested = point_of("p", {"hazards"}, {"g.*"});
+  Testpoint tested = testpoint_of("p", {"hazards"}, {"g.*"});
   tested.tests = {"testbench.Suite.Name"};
   EXPECT_EQ(findings(tested, {{"testbench.Instance/Suite.Name/3", false}}),
             "p, c: g.z was never hit\np: test testbench.Suite.Name fails\n");
@@ -216,9 +216,9 @@ TEST(Closure, NeedsATestWhereThereAreNoBins) {
   input.planned.declare("g", "x");
   Coverage& run = input.book.campaigns["hazards"];
   run.hit(run.declare("g", "x"));
-  Testpoint tested = point_of("t", {}, {});
+  Testpoint tested = testpoint_of("t", {}, {});
   tested.tests = {"testbench.Suite.Name"};
-  const VerificationPlan both{{point_of("p", {"hazards"}, {"g.x"}), tested}};
+  const VerificationPlan both{{testpoint_of("p", {"hazards"}, {"g.x"}), tested}};
   const auto findings = [&](const std::map<std::string, bool>& results) {
     return close_coverage(both, {input}, results).findings;
   };

@@ -68,9 +68,9 @@ TEST(Top, TheNextFrameIsWholeBehindASoftReset) {
   std::uint64_t resets = 0, words = 0;
   for (const char* sink : {"always", "random-30", "burst-90"})
     resets += reset_in_cycles({.source = Pattern("random-80", 2), .sink = Pattern(sink, 3)}, 1, 29, words);
-  constexpr std::uint64_t kBegun = 320;  // cycles: memories are wiped, begin_frame is taken
-  resets += reset_in_cycles({.drops = false, .source = Pattern("random-80", 2), .sink = Pattern("random-30", 3)},
-                            kBegun, 29, words);
+  constexpr std::uint64_t begun = 320;  // cycles: memories are wiped, begin_frame is taken
+  resets += reset_in_cycles({.drops = false, .source = Pattern("random-80", 2), .sink = Pattern("random-30", 3)}, begun,
+                            29, words);
   std::printf("[figure] soft resets = %llu, words of the next frames equal = %llu\n",
               static_cast<unsigned long long>(resets), static_cast<unsigned long long>(words));
   EXPECT_GT(resets, 100U);
@@ -107,14 +107,14 @@ TEST(Top, OtherWritesToControlResetNothing) {
 // Its beats are dropped without an error, up to the next begin_frame (M-check-14, M-top-6).
 TEST(Top, TheNextFrameIsFoundBehindAHardReset) {
   std::uint64_t resets = 0, words = 0;
-  constexpr std::uint64_t kBegun = 320;  // cycles: memories are wiped, begin_frame is taken
+  constexpr std::uint64_t begun = 320;  // cycles: memories are wiped, begin_frame is taken
   for (const std::size_t more : {0U, 1U, 40U}) {
     resets += reset_in_cycles(
-        {.hard = true, .more = more, .source = Pattern("random-80", 2), .sink = Pattern("random-60", 3)}, kBegun, 23,
+        {.hard = true, .more = more, .source = Pattern("random-80", 2), .sink = Pattern("random-60", 3)}, begun, 23,
         words);
   }
   // Beats that come when the device could take them: its memories are wiped.
-  resets += reset_in_cycles({.hard = true, .more = 40, .source = Pattern("every-16", 2)}, kBegun, 499, words);
+  resets += reset_in_cycles({.hard = true, .more = 40, .source = Pattern("every-16", 2)}, begun, 499, words);
   std::printf("[figure] hard resets = %llu, words of the next frames equal = %llu\n",
               static_cast<unsigned long long>(resets), static_cast<unsigned long long>(words));
   EXPECT_GT(resets, 50U);

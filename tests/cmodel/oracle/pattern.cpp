@@ -5,7 +5,7 @@ namespace fastsplat::oracle {
 namespace {
 
 /// narrow<RND, SAT>; no counter records a cut (N-6.3-14).
-Wide rnd(Wide value, int from_f, const Words& to) {
+Wide rounded(Wide value, int from_f, const Words& to) {
   return narrow(Rounding::Rnd, Overflow::Sat, value, from_f, to).word;
 }
 
@@ -37,7 +37,7 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
     if (away < 0) away = 0;
     if (away > 65535) away = 65535;
     const Words all{0, (M - 1) * 4096, 12};
-    const Wide at = rnd(away * tables.pattern[static_cast<std::size_t>(3 + axis)], 24, all);
+    const Wide at = rounded(away * tables.pattern[static_cast<std::size_t>(3 + axis)], 24, all);
     i[axis] = floor_divide(at, 4096);
     rest[axis] = remainder(at, 4096);
   }
@@ -47,7 +47,7 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
     const auto node = static_cast<std::size_t>(2 * (x + M * (y + M * z)));
     return half(tables.nodes[node + static_cast<std::size_t>(channel / 2)], channel % 2 == 1, channel > 0);
   };
-  const auto line = [](Wide a, Wide b, Wide part) { return a + rnd((b - a) * part, 28, s(2, 16)); };
+  const auto line = [](Wide a, Wide b, Wide part) { return a + rounded((b - a) * part, 28, s(2, 16)); };
   const auto along_x = [&](int channel, Wide y, Wide z) {
     const Wide a = word(channel, i[0], y, z);
     return rest[0] == 0 ? a : line(a, word(channel, i[0] + 1, y, z), rest[0]);
@@ -65,8 +65,8 @@ Solid solid_at(const Symbols& c, const PatternTables& tables, Wide X, Wide Y, Wi
   for (std::size_t ch = 0; ch < 3; ++ch) {
     const Wide lo = tables.pattern[6 + ch], hi = tables.pattern[9 + ch];
     // N-6.3-7 and the b of N-6.3-11
-    out.tint[ch] = lo + rnd((hi - lo) * v, 32, s(2, 16));
-    out.lean[ch] = rnd(value(static_cast<int>(ch) + 1) * Wide{tables.pattern[12]}, 31, s(10, 16));
+    out.tint[ch] = lo + rounded((hi - lo) * v, 32, s(2, 16));
+    out.lean[ch] = rounded(value(static_cast<int>(ch) + 1) * Wide{tables.pattern[12]}, 31, s(10, 16));
   }
   return out;
 }

@@ -28,7 +28,7 @@ class StreamCoverage {
 
   cmodel::Config config_;
   Coverage& coverage_;
-  Id record_ = 0, last_beat_ = 0;
+  Id record_ = 0;
   /// By cmodel::Table and cmodel::Mode, those of the configuration.
   std::array<Id, static_cast<std::size_t>(cmodel::Table::Pattern) + 1> table_kind_{};
   std::array<Id, static_cast<std::size_t>(cmodel::Mode::DensityAdditive) + 1> mode_{};

@@ -169,7 +169,7 @@ TEST(EllipseRules, PlaceAndCounters) {
   EXPECT_EQ(disagreement(config, bytes), "");
   // end_sheet counts both (S-ellipse-2).
   bytes = with_ellipse(config, sound());
-  flip(bytes, 9, 2, 2 ^ 1);
+  flip(bytes, 9, 2, 3);  // 2 becomes 1
   seal(bytes);
   EXPECT_EQ(broken_rule(config, bytes, &beat), StreamRule::EndCount);
   EXPECT_EQ(beat, 9U);

@@ -126,7 +126,7 @@ TEST(SettledPixels, ASplatIsHiddenWhereEveryPixelOfItIs) {
       const Rows open = pixels.open_rows(splat, rows);
       Footprint footprint;
       footprint.rasterise(kernel, splat, rows, width);
-      int rows_seen = 0, rows_kept = 0;
+      int rows_kept = 0;
       for (const Footprint::Span& span : footprint.spans()) {
         bool seen = false;
         for (int x = span.x; x < span.x + span.width; ++x) {
@@ -135,7 +135,7 @@ TEST(SettledPixels, ASplatIsHiddenWhereEveryPixelOfItIs) {
         }
         const bool kept = span.y >= open.first && span.y < open.end;
         ASSERT_TRUE(kept || !seen) << "a row that can be seen was left out";
-        rows_seen += seen, rows_kept += kept;
+        rows_kept += kept;
       }
       hidden += !footprint.spans().empty() && rows_kept == 0;
       cut += rows_kept > 0 && rows_kept < static_cast<int>(footprint.spans().size());

@@ -32,7 +32,7 @@ std::string attribute(const std::string& type, const std::string& value) {
 
 const std::string kOnePart = word(20000630) + word(2);
 const std::string kParts = word(20000630) + word(2 | 1u << 12);
-const std::string kEnd = text("");
+const std::string kNoMore = text("");
 
 std::string exr_defect_of(const std::string& bytes) {
   return exr_defect({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
@@ -44,7 +44,7 @@ const std::vector<std::pair<std::string, std::string>>& values() {
     std::vector<std::pair<std::string, std::string>> of{
         {"string", "any length"},
         {"unheard-of", "any length"},
-        {"chlist", text("R") + std::string(16, '\1') + text("G") + std::string(16, '\1') + kEnd},
+        {"chlist", text("R") + std::string(16, '\1') + text("G") + std::string(16, '\1') + kNoMore},
         {"stringvector", word(2) + "ab" + word(0) + word(1) + "c"},
         {"floatvector", std::string(12, '\1')},
         {"preview", word(2) + word(3) + std::string(24, '\1')}};
@@ -81,10 +81,10 @@ const std::vector<std::pair<std::string, std::string>>& values() {
 TEST(ExrHeader, RightAttributesPass) {
   std::string all = kOnePart;
   for (const auto& [type, value] : values()) {
-    EXPECT_EQ(exr_defect_of(kOnePart + attribute(type, value) + kEnd), "") << type;
+    EXPECT_EQ(exr_defect_of(kOnePart + attribute(type, value) + kNoMore), "") << type;
     all += attribute(type, value);
   }
-  EXPECT_EQ(exr_defect_of(all + kEnd + "pixels"), "");
+  EXPECT_EQ(exr_defect_of(all + kNoMore + "pixels"), "");
   std::printf("[figure] types that pass = %zu\n", values().size());
 }
 
@@ -93,7 +93,7 @@ TEST(ExrHeader, AValueOfAnotherLengthIsNamed) {
   for (const auto& [type, value] : values()) {
     if (type == "string" || type == "unheard-of") continue;
     for (const std::string& other : {value + '\1', value.substr(0, value.size() - 1)}) {
-      EXPECT_THAT(exr_defect_of(kOnePart + attribute(type, other) + kEnd), HasSubstr("at byte 8")) << type;
+      EXPECT_THAT(exr_defect_of(kOnePart + attribute(type, other) + kNoMore), HasSubstr("at byte 8")) << type;
       ++refused;
     }
   }
@@ -108,21 +108,21 @@ TEST(ExrHeader, ALengthBeyondTheEndIsNamed) {
               "an attribute of " + std::to_string(length) + " bytes exceeds the remaining 2 at byte 8");
   }
   // A list of texts with false lengths.
-  EXPECT_NE(exr_defect_of(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kEnd), "");
+  EXPECT_NE(exr_defect_of(kOnePart + attribute("stringvector", word(0x7fffffff) + "abc") + kNoMore), "");
   // 2^16 x 2^16 pixels: 0 as a number of 32 bits.
-  EXPECT_NE(exr_defect_of(kOnePart + attribute("preview", word(1 << 16) + word(1 << 16)) + kEnd), "");
+  EXPECT_NE(exr_defect_of(kOnePart + attribute("preview", word(1 << 16) + word(1 << 16)) + kNoMore), "");
 }
 
 TEST(ExrHeader, CutAnywhereIsNamed) {
-  const std::string whole = kOnePart + attribute("int", "abcd") + attribute("string", "text") + kEnd;
+  const std::string whole = kOnePart + attribute("int", "abcd") + attribute("string", "text") + kNoMore;
   for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(exr_defect_of(whole.substr(0, size)), "") << size;
   EXPECT_EQ(exr_defect_of(whole), "");
 }
 
 TEST(ExrHeader, EveryPartIsWalked) {
-  const std::string good = attribute("int", "abcd") + kEnd, bad = attribute("int", "abc") + kEnd;
-  EXPECT_EQ(exr_defect_of(kParts + good + good + kEnd), "");
-  EXPECT_NE(exr_defect_of(kParts + good + bad + kEnd), "");
+  const std::string good = attribute("int", "abcd") + kNoMore, bad = attribute("int", "abc") + kNoMore;
+  EXPECT_EQ(exr_defect_of(kParts + good + good + kNoMore), "");
+  EXPECT_NE(exr_defect_of(kParts + good + bad + kNoMore), "");
   EXPECT_NE(exr_defect_of(kParts + good + good), "");
   // Behind the only header of a file of one part are its pixels.
   EXPECT_EQ(exr_defect_of(kOnePart + good + bad), "");

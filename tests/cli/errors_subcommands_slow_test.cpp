@@ -84,8 +84,9 @@ TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
 
 TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   const TempFolder folder;
-  expect_success(fastsplat(with(kPropose, with(kSmall, {"--target", "fps>=700", "--clock", "100", "-o",
-                                                        folder / "p.toml", "--json", folder / "p.json"}))));
+  const auto told = fastsplat(with(kPropose, with(kSmall, {"--target", "fps>=700", "--clock", "100", "-o",
+                                                           folder / "p.toml", "--json", folder / "p.json"})));
+  expect_success(told);
   const Json speed = Json::parse(read_bytes(folder / "p.json")).at("speed"), &best = speed.at("proposed");
   Words words{"cycles",  "--config", folder / "p.toml", "--devices",      best.at("devices").dump(),
               "--clock", "100",      "--json",          folder / "c.json"};
@@ -96,6 +97,11 @@ TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   EXPECT_EQ(scaling.at("fps"), best.at("fps"));
   EXPECT_GE(scaling.at("fps").get<double>(), 700.0);
   EXPECT_EQ(speed.at("others").size(), 2U);
+  const int number = best.at("devices");
+  const std::string devices = std::to_string(number) + (number == 1 ? " device" : " devices");
+  EXPECT_NE(told.out.find(" fps with " + devices), std::string::npos) << told.out;
+  const auto page = fastsplat({"report", folder / "p.json", "-o", folder / "p.html"});
+  EXPECT_NE((page.out + page.err).find("psnr>=40, fps>=700 is met by " + devices), std::string::npos) << page.out;
 }
 
 TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {

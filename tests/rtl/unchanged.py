@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """unchanged.py NAME EMIT_PACKAGE SOURCE_DIR COMMAND...: runs COMMAND, unless passed.txt says that it passed on the same inputs.
 
-Inputs: the RTL without comments and blanks, the packages that C++ emits and what writes them, the planted faults, the scripts, the
-figures they compare with, and the versions of the tools. The same inputs give the same proof. Exit code 77: skipped. With
-FASTSPLAT_PROOFS=again it always runs, and what passes is written to passed.txt."""
+Inputs: the RTL, the packages that C++ emits for configs/, the planted faults, the scripts, what READS names and the versions of the
+tools. The same inputs give the same proof. Exit code 77: skipped. With FASTSPLAT_PROOFS=again it always runs, and what passes is
+written to passed.txt."""
 import fcntl
 import glob
 import hashlib
@@ -14,9 +14,11 @@ import sys
 name, emit, source = sys.argv[1:4]
 command = sys.argv[4:]
 kept = f"{source}/tests/rtl/passed.txt"
-sys.path.insert(0, f"{source}/tools/helpers")
-import evidence_stamp  # noqa: E402
 
+# What a test reads beside the RTL and tests/rtl.
+RATCHET = ("docs/evidence/synthesis.json", "tools/pages/evidence/*.cpp")
+READS = {"docs.timing": ("docs/microarchitecture.md", "docs/images/timing/*", "tools/pages/timing/*"),
+         "rtl.placement_ratchet": RATCHET, "rtl.synthesis_ratchet": RATCHET}
 TOOLS = ("yosys -V", "z3 --version", "verilator --version", "nextpnr-ice40 --version", "iverilog -V")
 
 
@@ -33,14 +35,13 @@ def output(words):
 
 
 def inputs():
-    digest = hashlib.sha256(repr(evidence_stamp.rtl(source)).encode())
+    digest = hashlib.sha256()
     for config in files("configs/*.toml", "configs/faults/*.toml", "tests/rtl/synthesis/*.toml"):
-        digest.update(subprocess.run([emit, config], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False).stdout)
-    for path in files("tests/rtl/**/*", "cmodel/rtl_package/*", "testbench/faults/*.def", "tools/pages/timing/*",
-                      "docs/evidence/synthesis.json", "docs/microarchitecture.md", "docs/images/timing/*"):
+        digest.update(subprocess.run([emit, config], stdout=subprocess.PIPE, check=True).stdout)
+    for path in files("rtl/**/*", "tests/rtl/**/*", "testbench/faults/*.def", *READS.get(name, ())):
         if path != kept:
             with open(path, "rb") as file:
-                digest.update(os.path.basename(path).encode() + b"\0" + file.read())
+                digest.update(path.removeprefix(source).encode() + b"\0" + file.read())
     for tool in TOOLS:
         digest.update(output(tool.split()) + b"\n")
     return digest.hexdigest()[:16]

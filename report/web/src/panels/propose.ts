@@ -18,15 +18,16 @@ export const propose: Panel = {
   name: "propose",
   verbs: ["errors propose"],
   title: "Proposed configuration",
-  about: "The cheapest configuration that meets the target, and each key. Cost is in full adders; a bit of memory is a sixth.",
+  about: "The cheapest that meets the target, and each key. Cost is in full adders; a bit of memory is a sixth.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
-    const saved = 1 - result.cost.total / result.cost_from.total;
+    const devices = result.speed?.proposed?.devices;
+    const share = result.cost.total / result.cost_from.total;
     root.append(
       lead(
         result.met ? "pass" : "fail",
         h("code", {}, result.target),
-        result.met ? (result.speed ? ` is met by ${result.speed.proposed.devices} devices: ` : ` is met at ${number_text(100 * (1 - saved), { digits: 0 })} % of the cost: `) : " is not met by any that was tried: ",
+        result.met ? (devices ? ` is met by ${devices} device${devices > 1 ? "s" : ""}: ` : ` is met at ${number_text(100 * share, { digits: 0 })} % of the cost: `) : " is not met by any tried: ",
         "PSNR ",
         show(["error_from", "psnr_db"], { digits: 2 }),
         " \u2192 ",
@@ -58,23 +59,27 @@ export const propose: Panel = {
     );
     place.append(legend(kinds.map(([, name, colour]) => ({ name: `${name}, bits`, colour }))));
     const speed = result.speed;
-    if (speed)
+    if (speed) {
+      const numbers = (names: Record<string, string>) =>
+        Object.entries(names).map(([key, name]) => ({
+          name,
+          value: (row: Result) => key.split(".").reduce((of, part) => of[part], row),
+          figure: (row: Result) => `${context.index}.speed.${row.at}.${key}`,
+        }));
       table(root, {
         label: `Devices at ${speed.clock_mhz} MHz`,
-        rows: [{ name: "from", ...speed.from }, { name: "proposed", ...speed.proposed }, ...speed.others.map((row: Result) => ({ name: `${row.target_fps} fps`, ...row }))].filter((row) => row.devices),
+        rows: [{ at: "from", ...speed.from }, { at: "proposed", ...speed.proposed }, ...speed.others.map((row: Result, i: number) => ({ at: `others.${i}`, ...row }))].filter((row) => row.devices),
         columns: [
-          { name: "Area", value: (row) => row.name },
-          { name: "Devices", value: (row) => row.devices },
-          { name: "fps", value: (row) => row.fps, style: { digits: 2 } },
-          { name: "Frame", unit: "ms", value: (row) => row.milliseconds, style: { digits: 2 } },
+          { name: "Area", value: (row) => (row.target_fps ? `${row.target_fps} fps` : row.at) },
+          ...numbers({ devices: "Devices", fps: "fps", milliseconds: "ms" }),
           { name: "Lanes", value: (row) => row.array_lanes ** 2 },
           { name: "At once", value: (row) => row.composited_at_once },
           { name: "Tile", value: (row) => `${row.tile_width} x ${row.tile_height}` },
           { name: "Culls", value: (row) => row.cull_map },
-          ...["lut", "ff", "ramb36", "dsp"].map((key) => ({ name: key.toUpperCase(), value: (row: Result) => row.area[key], style: { digits: 0 } })),
-          { name: "All", unit: "LUTs", value: (row) => row.area.equivalent_luts, style: { digits: 0 } },
+          ...numbers({ "area.lut": "LUT", "area.ff": "FF", "area.ramb36": "RAMB36", "area.dsp": "DSP", "area.equivalent_luts": "LUTs, all" }),
         ],
       });
+    }
     table(root, {
       label: "Keys",
       rows: result.keys as Result[],

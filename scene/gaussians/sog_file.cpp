@@ -150,7 +150,7 @@ void Sog::read(const std::string& text) {
     return decode_sog_picture(parts_, file_of(part(of), index), count_, 4 * count_ + 65536);
   };
   const SogPicture low = picture("means", 0);
-  check_growth(kBytesEach * count_, parts_.packed_bytes(), to_.source);
+  parts_.check_growth_to(kBytesEach * count_);
   const SogPicture high = picture("means", 1), quats = picture("quats", 0), scales = picture("scales", 0),
                    sh0 = picture("sh0", 0);
   read_harmonics();

@@ -22,7 +22,9 @@ void SogParts::refuse(const std::string& what, const std::string& expected, cons
                .fix = "the file is damaged or not a SOG scene: write or download it again"});
 }
 
-std::uint64_t SogParts::packed_bytes() const { return archive_ ? std::filesystem::file_size(path_) : read_; }
+void SogParts::check_growth_to(std::uint64_t unpacked) const {
+  check_growth(unpacked, archive_ ? std::filesystem::file_size(path_) : read_, path_.string());
+}
 
 std::string SogParts::from_archive(const std::string& name, std::uint64_t most) const {
   const auto close = [](void* file) { unzClose(file); };
@@ -36,7 +38,7 @@ std::string SogParts::from_archive(const std::string& name, std::uint64_t most) 
   if (info.uncompressed_size > most)
     refuse("a file in the archive is too large", fmt::format("{} of at most {} bytes", name.substr(0, 80), most),
            fmt::format("{}", info.uncompressed_size));
-  check_growth(info.uncompressed_size, packed_bytes(), path_.string());
+  check_growth_to(info.uncompressed_size);
   std::string out(info.uncompressed_size, '\0');
   const bool read =
       unzOpenCurrentFile(zip.get()) == UNZ_OK &&
@@ -64,6 +66,7 @@ SogPicture decode_sog_picture(const SogParts& parts, const std::string& name, st
   if (pixels < least || pixels > most)
     parts.refuse(fmt::format("the picture {} has the wrong size", name.substr(0, 80)),
                  fmt::format("{} to {} pixels", least, most), fmt::format("{} x {}", out.width, out.height));
+  parts.check_growth_to(4 * least);
   out.bytes.resize(4 * pixels);
   if (WebPDecodeRGBAInto(data, webp.size(), reinterpret_cast<std::uint8_t*>(out.bytes.data()), out.bytes.size(),
                          4 * out.width) == nullptr)

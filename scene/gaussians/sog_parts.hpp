@@ -17,8 +17,8 @@ class SogParts {
 
   /// A file of at most `most` bytes.
   std::string read(const std::string& name, std::uint64_t most) const;
-  /// Size of the archive, or of meta.json and the files read so far.
-  std::uint64_t packed_bytes() const;
+  /// Throws if the archive, or meta.json and the files read so far, can hardly hold so many bytes unpacked.
+  void check_growth_to(std::uint64_t unpacked) const;
   [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& got) const;
 
  private:
@@ -34,7 +34,7 @@ struct SogPicture {
   int width = 0, height = 0;
   std::string bytes;
 };
-/// Decodes a picture with at least `least` and at most `most` pixels.
+/// Decodes a picture with at least `least` and at most `most` pixels. Memory is checked before it is taken.
 SogPicture decode_sog_picture(const SogParts& parts, const std::string& name, std::uint64_t least, std::uint64_t most);
 
 }  // namespace fastsplat::scene

@@ -238,6 +238,12 @@ TEST(Sog, DamageIsNamed) {
     return archive(files);
   };
   const std::string bytes = archive(whole), packed = archive(whole, 6);
+  // Refused before its picture of 64 M pixels is decoded, which would fail.
+  Files many = whole;
+  Json counted = Json::parse(whole.at("meta.json"));
+  counted["count"] = 64'000'000;
+  many["meta.json"] = counted.dump(), many["l.webp"] = Picture(8000, 8000).webp().substr(0, 40);
+  const std::string huge = archive(many);
   const struct {
     std::string bytes;
     const char* said;
@@ -254,6 +260,7 @@ TEST(Sog, DamageIsNamed) {
       {with("sh0.webp", Picture(4, 4).webp()), "wrong size"},
       // Bombs: a picture of 64 M pixels in some bytes, Gaussians that only such a picture could hold, zeros.
       {with("sh0.webp", Picture(8000, 8000).webp()), "wrong size"},
+      {huge, "more Gaussians than it can hold"},
       {changed([](Json& meta) { meta["count"] = 101; }), "wrong size"},
       {changed([](Json& meta) { meta["count"] = 0; }), "number of Gaussians"},
       {changed([](Json& meta) { meta["count"] = -5; }), "number of Gaussians"},

@@ -22,6 +22,7 @@
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/scene_flags.hpp"
+#include "cli/stream_config.hpp"
 #include "cli/subcommands/subcommands.hpp"
 #include "cli/volume_json.hpp"
 #include "cmodel/cycles/cycle_model.hpp"
@@ -257,7 +258,9 @@ ExitCode run(const CyclesArguments& arguments) {
                                   : arguments.stream.empty() ? inputs_of(arguments.scene)
                                                              : std::vector{arguments.stream},
                                   inputs_of_config(arguments.config.config.value_or("")))});
-  const auto config = arguments.gaussians.file ? load_for_gaussians(arguments.config) : load(arguments.config);
+  const auto config = arguments.gaussians.file   ? load_for_gaussians(arguments.config)
+                      : arguments.stream.empty() ? load(arguments.config)
+                                                 : load(for_stream(arguments.config, arguments.stream));
   check_culling(arguments, config);
   if (auto wrong = cmodel::cycle_violation(config)) {
     wrong->where = "configuration " + config.name + ": " + wrong->where;

@@ -8,6 +8,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/staged_scene.hpp"
+#include "cli/stream_config.hpp"
 #include "cli/subcommands/subcommands.hpp"
 #include "driver/files/stream_file.hpp"
 #include "testbench/triage/pixel_words.hpp"
@@ -52,7 +53,7 @@ ExitCode run_stream(const PixelArguments& arguments, const glm::ivec2& at, const
                  .fix = "leave them out: a stream has the device's words only, and all of them are shown"});
   }
   refuse_without_gaussians(gaussians);
-  const cmodel::Config config = load(arguments.of.config);
+  const cmodel::Config config = load(for_stream(arguments.of.config, *arguments.stream));
   check_outputs({.images = {},
                  .maps = {},
                  .raws = {},

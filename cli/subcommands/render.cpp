@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 // Checks the flags as far as possible without reading files.
 void check(const RenderArguments& arguments, Engine engine) {
   if (arguments.out.empty() && arguments.raw.empty() && arguments.common.json.empty() && arguments.save_scene.empty() &&
-      arguments.wave.file.empty()) {
+      arguments.wave.file.empty() && arguments.video.empty()) {
     throw_usage({.where = {},
                  .what = "nothing to write",
                  .expected = {},

@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/stream_config.hpp"
 #include "cli/subcommands/subcommands.hpp"
 #include "driver/files/stream_file.hpp"
 #include "driver/tiles/render.hpp"
@@ -29,7 +30,7 @@ struct StreamReplayArguments {
 void declare(Options& options, StreamReplayArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
-  declare(options, to.config, "the configuration it was recorded for");
+  declare(options, to.config, "the configuration it was recorded for; found by its hash if it is built in");
   declare_images(options, to.out, to.raw);
   declare(options, to.common);
   options.example("fastsplat stream replay shells.fss --config tiny -o shells.png", "the picture of a stream");
@@ -62,7 +63,7 @@ Json to_json(const StreamReplayResult& result) {
 
 ExitCode run(const StreamReplayArguments& arguments) {
   const Output output(arguments.common);
-  const auto config = load(arguments.config);
+  const auto config = load(for_stream(arguments.config, arguments.stream));
   check_outputs({.images = arguments.out,
                  .maps = {},
                  .raws = {arguments.raw},

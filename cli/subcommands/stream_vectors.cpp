@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/progress_bar.hpp"
+#include "cli/stream_config.hpp"
 #include "cli/subcommands/subcommands.hpp"
 
 namespace fastsplat::cli {
@@ -27,7 +28,7 @@ struct StreamVectorsArguments {
 void declare(Options& options, StreamVectorsArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
-  declare(options, to.config, "the configuration it was recorded for");
+  declare(options, to.config, "the configuration it was recorded for; found by its hash if it is built in");
   options.group("Output");
   options.required("-o,--out", to.out, "FOLDER", "folder of the files; created in an existing folder if needed");
   declare(options, to.common);
@@ -79,8 +80,10 @@ ExitCode run(const StreamVectorsArguments& arguments) {
   const Output output(arguments.common);
   check_outputs({.others = joined({arguments.common.json}, outputs_in(arguments.out)),
                  .inputs = joined(inputs_of_config(arguments.config.config.value_or("")), {arguments.stream})});
-  StreamVectorsResult result{
-      .stream = arguments.stream, .folder = arguments.out, .config = load(arguments.config), .vectors = {}};
+  StreamVectorsResult result{.stream = arguments.stream,
+                             .folder = arguments.out,
+                             .config = load(for_stream(arguments.config, arguments.stream)),
+                             .vectors = {}};
   {
     ProgressBar bar("writing", watching(arguments.common));
     result.vectors =

@@ -16,6 +16,7 @@
 #include "cli/replay_line.hpp"
 #include "cli/result_writer.hpp"
 #include "cli/rtl_run.hpp"
+#include "cli/stream_config.hpp"
 #include "cli/subcommands/subcommands.hpp"
 #include "cli/verify_output.hpp"
 #include "driver/files/stream_file.hpp"
@@ -36,10 +37,11 @@ bool has_rtl_fault(const VerifyArguments& arguments) {
          testbench::planted_fault_from(arguments.fault).where == testbench::PlantedFault::Where::Rtl;
 }
 
-/// A fault in the RTL implies its configuration, unless one is given; so do 3-D Gaussians.
+/// A fault in the RTL implies its configuration, unless one is given; so do 3-D Gaussians and streams.
 ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
   if (arguments.gaussians.file && !has_rtl_fault(arguments)) return for_gaussians(config);
+  if (!arguments.stream.empty() && arguments.fault.empty()) return for_stream(config, arguments.stream);
   if (arguments.fault.empty() || config.config) return config;
   if (has_rtl_fault(arguments))
     config.config = testbench::breakable_config(testbench::planted_fault_from(arguments.fault));

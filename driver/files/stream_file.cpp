@@ -337,6 +337,18 @@ void read_beats(const std::filesystem::path& path, const cmodel::BeatSink& sink)
   });
 }
 
+std::uint64_t recorded_config(const std::filesystem::path& path) {
+  Reader reader(path);
+  std::uint64_t hash = 0;
+  naming(path, [&] {
+    reader.each([&](const Beat& beat) {
+      hash = std::get<cmodel::BeginFrame>(cmodel::from_beat(beat)).config_hash;
+      return false;
+    });
+  });
+  return hash;
+}
+
 void require_covered(const std::filesystem::path& path) {
   Reader reader(path);
   CoverRule cover;

@@ -30,6 +30,9 @@ struct GaussianReport;
 GaussianReport record_stream(const GaussianFrame& frame, const std::filesystem::path& path,
                              const Progress& progress = {});
 
+/// The configuration hash in the stream's header.
+std::uint64_t recorded_config(const std::filesystem::path& path);
+
 /// Feeds a recorded stream to the cmodel. A corrupt, truncated or foreign stream is a UserError (Input) with the byte
 /// offset and the reason; a configuration that differs from the stream's is refused by hash and name.
 DeviceRender replay_stream(const std::filesystem::path& path, const cmodel::Config& config,

@@ -29,7 +29,7 @@ struct Format {
 constexpr std::array kFormats{
     Format{".ply", is_ply, read_ply},          Format{".spz", is_spz, read_spz},
     Format{".glb", is_gltf, read_gltf},        Format{".gltf", nullptr, read_gltf},
-    Format{".sog", is_sog, read_sog},          Format{".json", is_sog_meta, read_sog_meta},
+    Format{".sog", is_sog, read_sog},          Format{"meta.json", is_sog_meta, read_sog_meta},
     Format{".ksplat", is_ksplat, read_ksplat}, Format{".splat", nullptr, read_splat},
 };
 

@@ -210,6 +210,7 @@ TEST(AnimationMisuse, IsOneLineWithTheFixAndNoFile) {
       {{"--frames", "4", "-o", out}, {"--frames", "--orbit"}},
       {{"--video", folder / "v.mp4", "-o", out}, {"--video", "--orbit"}},
       {{"--orbit", "0..90", "--frames", "4"}, {"nothing to write"}},
+      {{"--orbit", "0..90", "--frames", "4", "--video", folder / "v.mp4"}, {"no frames to write", "frame.####.png"}},
       {{"--orbit", "0..90", "--frames", "4", "--json", "-"}, {"no frames to write"}},
       {{"--orbit", "0..90", "--frames", "4", "-o", folder / "f.png"}, {"no place for the frame number", "####"}},
       {{"--orbit", "0..90", "--frames", "101", "-o", out}, {"write ###"}},

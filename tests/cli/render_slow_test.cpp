@@ -220,8 +220,15 @@ TEST(Stream, RecordedAndReplayedIsTheRenderedFrame) {
   expect_success(fastsplat(render_24({"--engine", "cmodel", "--config", "small", "--raw", folder / "a.exr"})));
   expect_success(fastsplat(
       {"stream", "record", "--volume", "shells:24", "--size", "64x48", "--config", "small", "-o", folder / "s.fss"}));
-  expect_success(fastsplat({"stream", "replay", folder / "s.fss", "--config", "small", "--raw", folder / "b.exr"}));
-  expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
+  // The stream's hash selects the configuration.
+  for (const std::vector<std::string>& config : {std::vector<std::string>{}, {"--config", "small"}}) {
+    std::vector<std::string> replay{"stream", "replay", folder / "s.fss", "--raw", folder / "b.exr"};
+    replay.insert(replay.end(), config.begin(), config.end());
+    expect_success(fastsplat(replay));
+    expect_success(fastsplat({"compare", folder / "a.exr", folder / "b.exr", "--max-lsb", "0"}));
+  }
+  expect_error(fastsplat({"stream", "replay", folder / "s.fss", "--set", "radial.entries=64", "-o", folder / "c.exr"}),
+               3, {"s.fss", "made for another configuration"});
   const auto dump = fastsplat({"stream", "dump", folder / "s.fss", "--limit", "5"});
   EXPECT_EQ(std::count(dump.out.begin(), dump.out.end(), '\n'), 5) << dump.out;
 }

@@ -75,6 +75,19 @@ void take_scene(const std::string& text, Json& state) {
   }
 }
 
+/// "tiny+radial.entries=64", the name of a changed configuration.
+void take_config(const std::string& name, Json& state) {
+  auto plus = std::min(name.find('+'), name.size());
+  state["config"] = name.substr(0, plus);
+  while (plus < name.size()) {
+    const auto next = std::min(name.find('+', plus + 1), name.size());
+    const std::string change = name.substr(plus + 1, next - plus - 1);
+    const auto equals = change.find('=');
+    if (equals != std::string::npos) state["changes"][change.substr(0, equals)] = change.substr(equals + 1);
+    plus = next;
+  }
+}
+
 void take_size(const std::string& text, Json& state) {
   const auto cross = std::min(text.find('x'), text.size());
   const auto width = integer_from<int>(std::string_view(text).substr(0, cross));
@@ -107,9 +120,10 @@ Json state_of_link(const std::string& link) {
   }
   const Query words = query_of(std::string_view(link).substr(at + kPrefix.size()));
   if (const auto scene = words.find("scene"); scene != words.end()) take_scene(scene->second, state);
-  for (const char* name : {"volume", "gaussians", "tf", "tf_toml", "kernel", "config", "toml"}) {
+  for (const char* name : {"volume", "gaussians", "tf", "tf_toml", "kernel", "toml"}) {
     if (const auto found = words.find(name); found != words.end()) state[name] = found->second;
   }
+  if (const auto config = words.find("config"); config != words.end()) take_config(config->second, state);
   if (const auto size = words.find("size"); size != words.end()) take_size(size->second, state);
   for (const char* side : {"width", "height"}) state[side] = std::clamp(state[side].get<int>(), kLeastSide, kMostSide);
   for (const scene::Setting& setting : scene::settings()) {

@@ -10,7 +10,8 @@ namespace fastsplat::lab {
 /// What the page shows: {"volume", "gaussians", "tf", "tf_toml", "kernel", "width", "height", "settings": {NAME: text},
 /// "config", "toml", "changes": {KEY: text}}. `link`: an address or its part from "#" on,
 /// "volume=...&config=...&size=WxH&s.SETTING=...& k.KEY=..."; "scene=TEXT", a scene.toml, stands in place of volume and
-/// settings. Absent words keep their defaults, unknown ones are left out. Throws UserError (Usage) for other addresses.
+/// settings, and a changed configuration's name, "tiny+radial.entries=64", in place of config and changes. Absent words
+/// keep their defaults, unknown ones are left out. Throws UserError (Usage) for other addresses.
 nlohmann::ordered_json state_of_link(const std::string& link);
 
 /// The request "frame" for a state. A transfer function of its own is "tf.toml".

@@ -129,7 +129,7 @@ Json entry(const Picture& picture, const Encoded& one, const std::string& id, st
         {"x", picture.x0}, {"y", picture.y0}, {"full_width", picture.full_width}, {"full_height", picture.full_height}};
   }
   if (!picture.ties.empty()) json["compared"] = picture.ties;
-  for (const char* key : {"config", "config_hash", "engine", "method", "volume", "scene", "gaussians"}) {
+  for (const char* key : {"config", "config_hash", "engine", "method", "volume", "scene", "gaussians", "lab"}) {
     if (const auto text = metadata_of(picture, key); !text.empty()) json[key] = text;
   }
   return json;

@@ -48,6 +48,7 @@ struct GaussianCloud {
   bool antialiased = false;            ///< trained so that the low-pass dims a footprint as much as it widens it
   bool linear = false;                 ///< colours are linear light, not encoded as sRGB
   bool by_distance = false;            ///< the file declares the order of distances from the eye
+  bool cropped = false;                ///< by crop()
   std::vector<DroppedGaussians> dropped{};  ///< by the first of each cause
   std::vector<std::string> remarks{};       ///< dropped, assumed or unsupported content, a sentence each
 

@@ -163,6 +163,7 @@ void crop(GaussianCloud& cloud, const RealBox& box) {
   }
   cloud.gaussians.resize(kept);
   cloud.harmonics.resize(kept * count);
+  cloud.cropped = true;
 }
 
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud) {

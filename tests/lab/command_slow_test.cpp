@@ -138,6 +138,10 @@ TEST_F(LabCommand, OfALinkIsThePages) {
     EXPECT_EQ(run.out, json["command"].get<std::string>() + "\n");
     expect_words(json["command"], answer.pictures.at(1));
   }
+  // A report's link has the name of a changed configuration.
+  const Json named = lab::state_of_link("#lab?config=tiny%2Bradial.entries%3D32%2Bpixel.frac_bits%3D4");
+  EXPECT_EQ(named["config"], "tiny");
+  EXPECT_EQ(named["changes"], (Json{{"radial.entries", "32"}, {"pixel.frac_bits", "4"}}));
   const Json scene = lab::state_of_link(links[2]);
   EXPECT_EQ(scene["settings"], (Json{{"camera.elevation", "-20.5"}, {"slabs.width", "2.0"}}));
   cli_test::expect_error(cli_test::fastsplat({"lab", "--print", "#pictures?x=1"}), 2, {"not an address of the lab"});

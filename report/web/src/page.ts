@@ -49,6 +49,8 @@ export interface Picture {
   scene?: string;
   /** The file of 3-D Gaussians. */
   gaussians?: string;
+  /** Their view, as a link of the lab. */
+  lab?: string;
   /** Its roles in compares: "0.ref" is the reference of results[0]. */
   compared?: string[];
 }

@@ -80,8 +80,22 @@ test("the lab opens with a picture's scene and configuration", async () => {
   const [href, text] = links[0];
   assert.match(href, /^lab\.html#lab\?scene=/);
   assert.match(text, /shells:16.*base.*48/);
-  assert.match(await page.textContent("#open-in-lab"), /lab\.html must lie beside this report; \.\/run lab makes it/);
+  assert.match(await page.textContent("#open-in-lab"), /in lab\.html beside this page; \.\/run lab makes it/);
   assert.equal(fastsplat(["lab", "--print", href]), "fastsplat render --volume shells:16 --size 48 --engine cmodel --config base --out device.exr\n");
+  await page.finish();
+});
+
+test("the lab opens with Gaussians and a changed configuration", async () => {
+  const view = ["--gaussians", "cloud:50", "--size", "40x32", "--azimuth", "33", "--fov", "40", "--engine", "cmodel"];
+  result("cloud", ["render", ...view, "--set", "radial.entries=128", "-o", "cloud.exr"]);
+  result("placed", ["render", "--gaussians", "cloud:50", "--size", "40x32", "--eye", "3,1,1", "-o", "placed.exr"]);
+  const page = await open(report("cloud", ["cloud.json", "placed.json"]));
+  const links = await page.$$eval("#open-in-lab a", (all) => all.map((each) => each.getAttribute("href")));
+  assert.equal(links.length, 1, "the lab has no placed cameras");
+  const command = fastsplat(["lab", "--print", links[0]]).trim();
+  assert.match(command, /--config ellipse .*--set radial.entries=128.* --out device.exr$/);
+  fastsplat([...command.split(" ").slice(1), "--quiet"]);
+  fastsplat(["compare", "cloud.exr", "device.exr", "--max-lsb", "0"]);
   await page.finish();
 });
 

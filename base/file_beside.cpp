@@ -20,7 +20,7 @@ fs::path file_beside(const fs::path& header, const std::string& text, const std:
   };
   const std::string shown = text.substr(0, 120);
   const bool upwards = std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
-  if (name.empty() || name.is_absolute() || upwards)
+  if (name.empty() || name.is_absolute() || upwards || text.find('\0') != text.npos)
     refuse("the data file must be in the header's folder", "a relative name without '..'", shown);
   std::error_code error;
   const fs::path folder = fs::canonical(header.has_parent_path() ? header.parent_path() : fs::path("."), error);

@@ -151,8 +151,10 @@ CLI::App* find_subcommand(CLI::App& app, const std::vector<std::string>& words, 
 
 // The flag that was probably meant; empty rather than a list of thirty.
 std::string near_flag(const CLI::App& subcommand, const std::string& flag) {
-  const auto hint = flag.starts_with("--") ? suggestion(flag, flag_names(subcommand)) : std::string{};
-  return hint;
+  constexpr std::size_t kMostListed = 16;
+  const auto names = flag_names(subcommand);
+  const auto hint = flag.starts_with("--") ? suggestion(flag, names) : std::string{};
+  return hint.starts_with("known:") && names.size() > kMostListed ? std::string{} : hint;
 }
 
 // Reports unknown flags, missing values and repeated flags, in the user's order.

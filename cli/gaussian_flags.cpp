@@ -342,10 +342,11 @@ std::vector<Remark> remarks(const driver::GaussianReport& report, const cmodel::
        "step "
        "radius");
   if (report.saturated > 0)
-    warn(report.saturated, " brighter than the input format allows and clamped; " + brighter(config, report.brightest));
+    warn(report.saturated,
+         " brighter than the device's input allows and clamped; " + brighter(config, report.brightest));
   if (report.vanished > 0)
     said.push_back(
-        {Remark::Note, counted(report.vanished, "Gaussian") + " vanished: too transparent for the input format"});
+        {Remark::Note, counted(report.vanished, "Gaussian") + " vanished: too transparent for the device's input"});
   return said;
 }
 

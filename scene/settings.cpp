@@ -65,7 +65,10 @@ std::string expected_instead(const Setting& setting, const std::string& text) {
             const auto value = triple_from(text);
             return unless(value && inside(kind, *value), "X,Y,Z, each " + expected_number(kind));
           },
-          [&](const Box&) { return unless(box_from(text).has_value(), "A..B,C..D,E..F, voxels from 0"); },
+          [&](const Box&) {
+            return unless(box_from(text).has_value(),
+                          "A..B,C..D,E..F, each from low to high: voxels from 0, or coordinates of 3-D Gaussians");
+          },
           [&](const Switch&) { return unless(text == "on" || text == "off", "on or off"); },
           [&](const Choice& kind) {
             const auto& names = kind.names();

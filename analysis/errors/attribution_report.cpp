@@ -65,10 +65,10 @@ Json amount_json(const Amount& amount) {
 }  // namespace
 
 std::optional<TriedSuggestion> try_suggestion(const ChainOf& chain_of, const cmodel::Config& config,
-                                              const Attribution& attribution, int threads) {
+                                              const Attribution& attribution, bool gaussians, int threads) {
   for (const StepError* step : ranked(attribution)) {
     if (step->share <= 0.0) break;
-    std::optional<Suggestion> found = suggestion(step->set.steps.back(), config);
+    std::optional<Suggestion> found = suggestion(step->set.steps.back(), config, gaussians);
     if (!found) continue;
     TriedSuggestion out{step->set.name, std::move(*found), {}, {}};
     if (config.index() == cmodel::IndexKind::Rlut) out.costs = {cost(config), cost(out.suggestion.config)};

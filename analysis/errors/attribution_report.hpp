@@ -28,7 +28,7 @@ struct TriedSuggestion {
 using ChainOf = std::function<std::unique_ptr<stages::Chain>(const cmodel::Config&)>;
 /// Tries the suggestion for the step with the largest share that has one.
 std::optional<TriedSuggestion> try_suggestion(const ChainOf& chain_of, const cmodel::Config& config,
-                                              const Attribution& attribution, int threads);
+                                              const Attribution& attribution, bool gaussians, int threads);
 
 /// The answer first, then the table. `bits`: amounts are in LSB of this width.
 std::string to_text(const Attribution& attribution, const std::optional<TriedSuggestion>& tried, int bits);

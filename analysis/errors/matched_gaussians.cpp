@@ -14,6 +14,11 @@ using scene::GaussianCloud;
 
 constexpr std::size_t kNearest = 16;
 
+double squared_distance(const glm::vec3& a, const glm::vec3& b) {
+  const glm::dvec3 apart = glm::dvec3(a) - glm::dvec3(b);
+  return glm::dot(apart, apart);
+}
+
 /// Points by position: a k-d tree in an array, the median of each part in its middle.
 class NearPoints {
  public:
@@ -51,8 +56,7 @@ class NearPoints {
     const double beside = static_cast<double>(at[axis]) - static_cast<double>(along(part[middle], axis));
     const auto before = part.first(middle), behind = part.subspan(middle + 1);
     search(beside < 0.0 ? before : behind, (axis + 1) % 3, at, found);
-    const glm::dvec3 apart = glm::dvec3(at) - glm::dvec3(cloud_.gaussians[part[middle]].position);
-    const Found here{glm::dot(apart, apart), part[middle]};
+    const Found here{squared_distance(at, cloud_.gaussians[part[middle]].position), part[middle]};
     const auto place = std::upper_bound(found.begin(), found.end(), here.squared,
                                         [](double squared, const Found& one) { return squared < one.squared; });
     found.insert(place, here);
@@ -89,7 +93,13 @@ std::vector<std::optional<std::uint32_t>> matched_gaussians(const GaussianCloud&
   std::vector<std::vector<Choice>> choices(count);  // the best last
   std::size_t in_order = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto near = points.near(from.gaussians[i].position);
+    auto near = points.near(from.gaussians[i].position);
+    // More than the nearest may lie in one place.
+    if (i < to.gaussians.size()) {
+      const double own = squared_distance(from.gaussians[i].position, to.gaussians[i].position);
+      const bool known = std::ranges::any_of(near, [i](const auto& one) { return one.number == i; });
+      if (!known && own <= near.back().squared) near.push_back({own, static_cast<std::uint32_t>(i)});
+    }
     // Places count in units of the distance to the last of the nearest.
     const double unit = near.back().squared > 0.0 ? near.back().squared : 1.0;
     for (const auto& [squared, number] : near) {

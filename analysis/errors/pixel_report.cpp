@@ -205,7 +205,7 @@ struct Origin {
   std::vector<std::int64_t> numbers;
 };
 Origin origin_of(const stages::Chain& chain, std::uint32_t splat) {
-  if (chain.gaussians() != nullptr) return {"gaussian", {chain.gaussians()->gaussians()[splat].number}};
+  if (chain.gaussians() != nullptr) return {"gaussian", {chain.gaussians()->number_of(splat)}};
   const glm::ivec3 voxel = stages::voxel_of(*chain.scene().volume, chain.list().splats[splat]);
   return {"voxel", {voxel.x, voxel.y, voxel.z}};
 }

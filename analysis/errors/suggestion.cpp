@@ -100,9 +100,11 @@ std::string changes(const Config& from, const Config& to) {
   return text;
 }
 
-std::optional<Suggestion> suggestion(Step step, const Config& config) {
+std::optional<Suggestion> suggestion(Step step, const Config& config, bool gaussians) {
   Suggestion out{config, {}};
+  if (gaussians && step == Step::Snap) step = Step::Position;  // ellipses are not snapped
   apply(step, out.config);
+  if (step == Step::Position && cmodel::first_violation(out.config)) --out.config.position_frac_bits;
   if (cmodel::first_violation(out.config) || out.config == config) return std::nullopt;
   out.changes = changes(config, out.config);
   out.config.name += "+";

@@ -16,8 +16,8 @@ struct Suggestion {
 };
 
 /// Two more bits for the step's words (a quarter of its step size), or one more integer bit. nullopt if the limits of
-/// the configuration do not allow it.
-std::optional<Suggestion> suggestion(stages::Step step, const cmodel::Config& config);
+/// the configuration do not allow it. `gaussians`: for a frame of 3-D Gaussians.
+std::optional<Suggestion> suggestion(stages::Step step, const cmodel::Config& config, bool gaussians);
 
 /// Keys that differ, in the order of the table: "snap.phases 64 -> 256".
 std::string changes(const cmodel::Config& from, const cmodel::Config& to);

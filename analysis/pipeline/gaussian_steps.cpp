@@ -10,6 +10,7 @@ namespace fastsplat::stages {
 
 GaussianSteps::GaussianSteps(const scene::GaussianScene& scene, const cmodel::Config& config, int threads)
     : config_(config),
+      cloud_(scene.cloud),
       grid_(config, scene.camera.width(), scene.camera.height()),
       centre_(driver::target(driver::Site::EllipseCentre, config)),
       value_(driver::target(driver::Site::Gaussian, config)),

@@ -22,6 +22,8 @@ class GaussianSteps {
   const scene::ProjectionReport& projection() const { return projection_; }
   /// Nearest first.
   const std::vector<scene::ProjectedGaussian>& gaussians() const { return gaussians_; }
+  /// The number of one of them in its file.
+  std::uint32_t number_of(std::size_t i) const { return cloud_->number_of(gaussians_[i].number); }
   /// With the numbers `which`. Values are alpha times colour, and alpha.
   Staged staged(std::span<const std::uint32_t> which, const Mixture& mixture, int threads, Staged memory) const;
 
@@ -30,6 +32,7 @@ class GaussianSteps {
              StagedShape& shape) const;
 
   const cmodel::Config& config_;
+  std::shared_ptr<const scene::GaussianCloud> cloud_;
   driver::TileGrid grid_;
   driver::Target centre_, value_;
   double rim_;  ///< the cutoff's square

@@ -109,8 +109,9 @@ ExitCode run(const ErrorsArguments& arguments) {
                                                       .progress = bar.callback()});
   }
   if (!floats)
-    result.tried = analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); },
-                                            config, result.attribution, threads);
+    result.tried =
+        analysis::try_suggestion([&](const cmodel::Config& other) { return scene.chain(other, threads); }, config,
+                                 result.attribution, arguments.of.gaussians.file.has_value(), threads);
   if (!arguments.blame.empty()) write_map(arguments.blame, analysis::blame_map(result.attribution));
   if (!arguments.maps.empty()) write_maps(arguments, scene, result);
   output.line(errors_heading(result.scene, config) +

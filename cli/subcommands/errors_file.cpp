@@ -50,6 +50,11 @@ ExitCode run(const ErrorsFileArguments& arguments) {
   if (view.crop) scene::crop(encoded, *view.crop);
   output.remark(remarks(*scene.cloud));
   output.remark(remarks(encoded));
+  if (encoded.linear != scene.cloud->linear)
+    output.warn(
+        fmt::format("the encoded file declares {} colours, the original {}: figures compare the files' own "
+                    "numbers, but pictures for display differ in brightness",
+                    encoded.linear ? "linear" : "sRGB", scene.cloud->linear ? "linear" : "sRGB"));
   analysis::FileErrors errors;
   {
     ProgressBar bar("errors", watching(arguments.common));

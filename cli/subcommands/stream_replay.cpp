@@ -30,7 +30,7 @@ struct StreamReplayArguments {
 void declare(Options& options, StreamReplayArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
-  declare(options, to.config, "the configuration it was recorded for; found by its hash if it is built in");
+  declare(options, to.config, "the configuration it was recorded for (found by its hash)");
   declare_images(options, to.out, to.raw);
   declare(options, to.common);
   options.example("fastsplat stream replay shells.fss --config tiny -o shells.png", "the picture of a stream");

@@ -28,7 +28,7 @@ struct StreamVectorsArguments {
 void declare(Options& options, StreamVectorsArguments& to) {
   options.positional("STREAM", to.stream, "a stream file");
   options.group("Engine");
-  declare(options, to.config, "the configuration it was recorded for; found by its hash if it is built in");
+  declare(options, to.config, "the configuration it was recorded for (found by its hash)");
   options.group("Output");
   options.required("-o,--out", to.out, "FOLDER", "folder of the files; created in an existing folder if needed");
   declare(options, to.common);

@@ -49,9 +49,11 @@ struct GaussianCloud {
   bool linear = false;                 ///< colours are linear light, not encoded as sRGB
   bool by_distance = false;            ///< the file declares the order of distances from the eye
   bool cropped = false;                ///< by crop()
+  std::vector<std::uint32_t> numbers{};     ///< in the file, from 0, if some of its Gaussians were dropped or cropped
   std::vector<DroppedGaussians> dropped{};  ///< by the first of each cause
   std::vector<std::string> remarks{};       ///< dropped, assumed or unsupported content, a sentence each
 
+  std::uint32_t number_of(std::size_t i) const { return numbers.empty() ? static_cast<std::uint32_t>(i) : numbers[i]; }
   std::span<const glm::vec3> harmonics_of(std::size_t i) const {
     const auto count = static_cast<std::size_t>(harmonic_count(degree));
     return std::span(harmonics).subspan(i * count, count);

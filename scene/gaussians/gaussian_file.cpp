@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/json_file.hpp"
 #include "base/lower_case.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
+#include "scene/gaussians/gltf_document.hpp"
 #include "scene/gaussians/gltf_file.hpp"
 #include "scene/gaussians/ksplat_file.hpp"
 #include "scene/gaussians/other_formats.hpp"
@@ -44,6 +47,24 @@ const Format* format_by_ending(const std::string& ending) {
   return found == kFormats.end() ? nullptr : found;
 }
 
+/// The buffers of a .gltf and the pictures of a meta.json: every string in it that names a file beside it.
+void add_named_files(std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 24;  // larger ones hold their data
+  using Json = nlohmann::json;
+  const std::filesystem::path scene = files[0];
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(scene, error) || std::filesystem::file_size(scene, error) > kMostBytes) return;
+  try {
+    const Json words = parse_json<Json>(read_text_file(scene, kMostBytes)).flatten();
+    for (const Json& value : words) {
+      if (!value.is_string() || value.get_ref<const std::string&>().size() > 255) continue;
+      const std::filesystem::path file = scene.parent_path() / from_uri(value.get<std::string>());
+      if (std::filesystem::is_regular_file(file, error)) files.push_back(file);
+    }
+  } catch (const std::exception&) {  // its reader says what is wrong
+  }
+}
+
 }  // namespace
 
 void refuse_dropped(const GaussianCloud& cloud) {
@@ -66,9 +87,11 @@ void check_gaussian(const Gaussian& gaussian, std::span<const glm::vec3> harmoni
 
 std::vector<std::filesystem::path> files_of_gaussians(const std::string& name_or_path) {
   std::string ending = std::filesystem::path(name_or_path).extension().string();
-  return is_synthetic_gaussians(name_or_path) && ending != ".ply" && ending != ".splat"
-             ? std::vector<std::filesystem::path>{}
-             : std::vector<std::filesystem::path>{name_or_path};
+  if (is_synthetic_gaussians(name_or_path) && ending != ".ply" && ending != ".splat") return {};
+  std::vector<std::filesystem::path> files{name_or_path};
+  ending = lower_case(ending);
+  if (ending == ".gltf" || ending == ".json") add_named_files(files);
+  return files;
 }
 
 GaussianCloud load_gaussians(const std::string& name_or_path) {
@@ -94,6 +117,7 @@ GaussianCloud load_gaussians(const std::string& name_or_path) {
                  .got = {},
                  .fix = "give it with --volume"});
   }
+  if (!ending.empty()) require_regular_file(files[0], "check the path");
   throw_input({.where = name_or_path,
                .what = "neither a file of 3-D Gaussians nor a built-in scene",
                .expected = fmt::format("{}, or {}", kReadFormats, fmt::join(synthetic_gaussian_names(), ", ")),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.hpp"
 
@@ -35,7 +36,8 @@ std::string fault_of(const Gaussian& gaussian, std::span<const glm::vec3> harmon
     if (!std::isfinite(gaussian.scale[axis])) return fmt::format("scale_{} is not finite", axis);
     if (gaussian.scale[axis] < 0.0F) return fmt::format("scale_{} is negative", axis);
   }
-  if (!(gaussian.opacity >= 0.0F && gaussian.opacity <= 1.0F)) return "opacity is not a number";
+  if (std::isnan(gaussian.opacity)) return "opacity is not a number";
+  if (gaussian.opacity < 0.0F || gaussian.opacity > 1.0F) return "opacity is outside 0..1";
   for (std::size_t i = 0; i < harmonics.size(); ++i)
     for (int c = 0; c < 3; ++c)
       if (!std::isfinite(harmonics[i][c])) return harmonic_name(i, c, harmonics.size()) + " is not finite";
@@ -49,10 +51,15 @@ void GaussianRows::add(Gaussian gaussian, const glm::dvec4& rotation, std::span<
   gaussian.rotation = rotation / glm::length(rotation);
   to_.gaussians.push_back(gaussian);
   to_.harmonics.insert(to_.harmonics.end(), harmonics.begin(), harmonics.end());
+  if (!dropped_.empty()) to_.numbers.push_back(static_cast<std::uint32_t>(rows_));
   ++rows_;
 }
 
 void GaussianRows::drop(const std::string& fault) {
+  if (dropped_.empty()) {
+    to_.numbers.resize(to_.gaussians.size());
+    std::iota(to_.numbers.begin(), to_.numbers.end(), 0U);
+  }
   const auto known = std::ranges::find(dropped_, fault, &DroppedGaussians::cause);
   if (known == dropped_.end())
     dropped_.push_back({fault, 1, rows_});

@@ -28,19 +28,20 @@ struct Writer {
   bool up;           ///< declares the vertical axis
   bool linear;       ///< declares that colours are linear light
   bool antialiased;  ///< declares that the scene was trained anti-aliased
+  bool by_distance;  ///< declares the order of distances from the eye; others that of depths
   StoredRange log_scale, colour, harmonic;
   std::vector<double> (*rounding)(const GaussianCloud&);  ///< of positions; nullptr: none
 };
 std::string binary_ply(const GaussianCloud& cloud) { return ply_bytes(cloud); }
 constexpr StoredRange kAll{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0.0};
 constexpr std::array kWriters{
-    Writer{".compressed.ply", packed_ply_bytes, kMostDegree, true, true, true, kPackedLogScale, kPackedColour,
+    Writer{".compressed.ply", packed_ply_bytes, kMostDegree, true, true, true, false, kPackedLogScale, kPackedColour,
            kPackedHarmonic, packed_ply_rounding},
-    Writer{".ply", binary_ply, kMostDegree, true, true, true, kPlyLogScale, kAll, kAll, nullptr},
-    Writer{".splat", splat_bytes, 0, false, false, false, kAll, kSplatColour, kAll, nullptr},
-    Writer{".spz", spz_bytes, kMostDegree, false, false, true, spz::kLogScale, spz::kColour, spz::kHarmonic,
+    Writer{".ply", binary_ply, kMostDegree, true, true, true, false, kPlyLogScale, kAll, kAll, nullptr},
+    Writer{".splat", splat_bytes, 0, false, false, false, false, kAll, kSplatColour, kAll, nullptr},
+    Writer{".spz", spz_bytes, kMostDegree, false, false, true, false, spz::kLogScale, spz::kColour, spz::kHarmonic,
            spz_rounding},
-    Writer{".glb", glb_bytes, kMostDegree, false, true, false, kAll, kAll, kAll, nullptr},
+    Writer{".glb", glb_bytes, kMostDegree, false, true, false, true, kAll, kAll, kAll, nullptr},
 };
 
 const Writer& writer_for(const std::filesystem::path& path) {
@@ -125,6 +126,10 @@ std::vector<std::string> lost_in_gaussian_file(const GaussianCloud& cloud, const
   if (cloud.up && cloud.up != UpAxis::MinusY && !writer.up)
     lost.push_back(fmt::format("{} cannot declare the vertical axis {}: add --up when you draw it", writer.ending,
                                up_axis_names()[static_cast<std::size_t>(*cloud.up)]));
+  if (cloud.by_distance != writer.by_distance)
+    lost.push_back(fmt::format("{} declares the order by {}: add --order {} when you draw it", writer.ending,
+                               writer.by_distance ? "distance from the eye" : "depth",
+                               cloud.by_distance ? "distance" : "centres"));
   note_clamped(cloud, writer, lost);
   if (const std::size_t count = writer.rounding != nullptr ? moved(cloud, writer.rounding(cloud)) : 0; count > 0)
     lost.push_back(

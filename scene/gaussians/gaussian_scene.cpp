@@ -140,6 +140,7 @@ void crop(GaussianCloud& cloud, const RealBox& box) {
   const auto count = static_cast<std::size_t>(harmonic_count(cloud.degree));
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   std::size_t kept = 0;
+  std::vector<std::uint32_t> numbers;
   for (std::size_t i = 0; i < cloud.gaussians.size(); ++i) {
     const glm::vec3 at = cloud.gaussians[i].position;
     low = glm::min(low, glm::dvec3(at)), high = glm::max(high, glm::dvec3(at));
@@ -147,6 +148,7 @@ void crop(GaussianCloud& cloud, const RealBox& box) {
     if (glm::any(glm::lessThan(at, glm::vec3(box.low))) || glm::any(glm::greaterThan(at, glm::vec3(box.high))))
       continue;
     cloud.gaussians[kept] = cloud.gaussians[i];
+    numbers.push_back(cloud.number_of(i));
     const auto from = cloud.harmonics.begin() + static_cast<std::ptrdiff_t>(i * count);
     std::copy_n(from, count, cloud.harmonics.begin() + static_cast<std::ptrdiff_t>(kept * count));
     ++kept;
@@ -164,6 +166,7 @@ void crop(GaussianCloud& cloud, const RealBox& box) {
   cloud.gaussians.resize(kept);
   cloud.harmonics.resize(kept * count);
   cloud.cropped = true;
+  cloud.numbers = std::move(numbers);
 }
 
 GaussianScene build_gaussian_scene(const GaussianDescription& description, std::shared_ptr<const GaussianCloud> cloud) {

@@ -42,25 +42,6 @@ std::string from_base64(std::string_view text) {
   return out;
 }
 
-/// A name with %20 and the like as in URIs.
-std::string from_uri(const std::string& uri) {
-  constexpr std::string_view kHex = "0123456789abcdef";
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const auto digit = [&](std::size_t at) {
-      return at < uri.size() ? kHex.find(static_cast<char>(uri[at] | 0x20)) : std::string_view::npos;
-    };
-    const std::size_t high = digit(i + 1), low = digit(i + 2);
-    if (uri[i] == '%' && high != std::string_view::npos && low != std::string_view::npos) {
-      append_byte(out, static_cast<std::uint32_t>(16 * high + low));
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 /// Bytes of a number of a component type; 0 for unknown types.
 std::size_t size_of_type(std::size_t type) {
   switch (type) {
@@ -79,6 +60,24 @@ std::size_t size_of_type(std::size_t type) {
 }
 
 }  // namespace
+
+std::string from_uri(const std::string& uri) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const auto digit = [&](std::size_t at) {
+      return at < uri.size() ? kHex.find(static_cast<char>(uri[at] | 0x20)) : std::string_view::npos;
+    };
+    const std::size_t high = digit(i + 1), low = digit(i + 2);
+    if (uri[i] == '%' && high != std::string_view::npos && low != std::string_view::npos) {
+      append_byte(out, static_cast<std::uint32_t>(16 * high + low));
+      i += 2;
+    } else {
+      out += uri[i];
+    }
+  }
+  return out;
+}
 
 float GltfNumbers::at(std::size_t element, std::size_t number) const {
   const std::size_t place = element * stride + number * size_of_type(static_cast<std::size_t>(type));
@@ -219,8 +218,13 @@ GltfNumbers GltfDocument::numbers(std::size_t accessor, std::size_t width, const
   const std::string_view all = buffer(number(view, "buffer", what));
   const std::size_t offset = number_or(view, "byteOffset", 0, what), length = number(view, "byteLength", what);
   const std::size_t skip = number_or(described, "byteOffset", 0, what);
-  if (offset > all.size() || length > all.size() - offset || skip > length || out.stride < width * size ||
-      out.stride > 65536)
+  if (out.stride < width * size || out.stride > 65536)
+    refuse(what + " has an invalid byteStride", fmt::format("{} to 65536", width * size),
+           fmt::format("{}", out.stride));
+  if (skip > length)
+    refuse(what + " begins outside its buffer view", fmt::format("a byteOffset within {} bytes", length),
+           fmt::format("{}", skip));
+  if (offset > all.size() || length > all.size() - offset)
     refuse(what + " lies outside its buffer", fmt::format("within {} bytes", all.size()),
            fmt::format("{} bytes at byte {}", length, offset));
   out.bytes = all.substr(offset + skip, length - skip);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
@@ -41,6 +42,7 @@ class Gltf {
   std::vector<double> list(const Json& node, const char* key, std::size_t size) const;
   void take(const Json& primitive, std::size_t node);
   void follow(const Json& extension);
+  void remark(const std::string& text);  ///< once
   void add(const GltfSplats& splats, GaussianRows& rows);
   bool logarithms() const;
 
@@ -58,7 +60,8 @@ void Gltf::check_required() {
     const auto place = Json::json_pointer("/asset") / key;
     if (std::string_view(key) == "minVersion" && !file_.json().contains(place)) continue;
     const Json version = file_.json().contains(place) ? file_.json()[place] : Json();
-    if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
+    const std::string text = version.is_string() ? version.get<std::string>() : "";
+    if (key == std::string("minVersion") ? text != "2.0" : !text.starts_with("2."))
       file_.refuse(fmt::format("unsupported asset.{} of glTF", key), "2.0", version.dump().substr(0, 40),
                    "export it as glTF 2.0");
   }
@@ -93,6 +96,8 @@ glm::dmat4 Gltf::transformation(const Json& node) const {
         file_.refuse("a node has two transformations", "a matrix or TRS", fmt::format("matrix and {}", key));
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 4; ++row) out[column][row] = matrix[static_cast<std::size_t>(4 * column + row)];
+    if (glm::row(out, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
+      file_.refuse("a node's matrix is no affine transformation", "a last row of 0, 0, 0, 1", "another");
     return out;
   }
   if (const auto turn = list(node, "rotation", 4); !turn.empty()) {
@@ -135,6 +140,10 @@ void Gltf::walk(std::size_t first, const glm::dmat4& parent) {
   }
 }
 
+void Gltf::remark(const std::string& text) {
+  if (std::ranges::find(to_.remarks, text) == to_.remarks.end()) to_.remarks.push_back(text);
+}
+
 void Gltf::follow(const Json& extension) {
   const auto word = [&](const char* key, const char* usual) {
     const auto found = extension.find(key);
@@ -143,9 +152,6 @@ void Gltf::follow(const Json& extension) {
   if (const auto more = extension.find("extensions"); more != extension.end() && more->is_object() && !more->empty())
     file_.refuse("the Gaussians of the glTF file are compressed or extended", kExtension, more->begin().key(),
                  "export them without this extension");
-  const auto remark = [&](const std::string& text) {
-    if (std::ranges::find(to_.remarks, text) == to_.remarks.end()) to_.remarks.push_back(text);
-  };
   if (const std::string kernel = word("kernel", "ellipse"); kernel != "ellipse")
     remark("the kernel '" + kernel.substr(0, 40) + "' is not supported: drawn as 'ellipse'");
   const std::string space = word("colorSpace", "srgb_rec709_display");
@@ -188,9 +194,14 @@ void Gltf::take(const Json& primitive, std::size_t node) {
                     .opacity = numbers(prefix + "OPACITY", 1, {5121, 5123}, true),
                     .harmonics = {},
                     .node = node};
+  int most = 0;
+  for (const auto& [name, accessor] : attributes->items())
+    for (int degree = 1; degree <= kMostDegree + 1; ++degree)
+      if (name.starts_with(fmt::format("{}SH_DEGREE_{}_", prefix, degree))) most = std::max(most, degree);
+  if (most > kMostDegree) remark(fmt::format("harmonics above degree {} are not drawn", kMostDegree));
   for (int degree = 0; degree <= kMostDegree; ++degree) {
     const std::string stem = fmt::format("{}SH_DEGREE_{}_COEF_", prefix, degree);
-    if (degree > 0 && !attributes->contains(stem + "0")) break;
+    if (degree > most) break;
     for (int k = 0; k <= 2 * degree; ++k) splats.harmonics.push_back(numbers(stem + std::to_string(k), 3));
   }
   const std::size_t count = splats.position.count;
@@ -236,7 +247,9 @@ void Gltf::add(const GltfSplats& splats, GaussianRows& rows) {
       one.scale[axis] = static_cast<float>(size * (logarithms_ ? std::exp(scale) : scale));
       for (std::size_t h = 0; h < splats.harmonics.size(); ++h) harmonics[h][axis] = splats.harmonics[h].at(i, k);
     }
-    one.opacity = splats.opacity.at(i, 0);
+    constexpr float kRounding = 1e-5F;  // of a writer
+    const float opacity = splats.opacity.at(i, 0), within = std::clamp(opacity, 0.0F, 1.0F);
+    one.opacity = std::abs(opacity - within) < kRounding ? within : opacity;
     one.position = linear * position + glm::dvec3(world[3]);
     const auto part = [&](std::size_t k) { return static_cast<double>(splats.rotation.at(i, k)); };
     glm::dquat own(part(3), part(0), part(1), part(2));

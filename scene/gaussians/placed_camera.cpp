@@ -228,6 +228,7 @@ std::size_t find_camera(const CameraFile& file, const std::string& name) {
                  .fix = "use one of these"});
   };
   auto found = std::find_if(cameras.begin(), cameras.end(), named);
+  if (std::count_if(cameras.begin(), cameras.end(), named) > 1) refuse("several cameras have this name");
   if (found == cameras.end()) {
     found = std::find_if(cameras.begin(), cameras.end(), of_file);
     if (std::count_if(cameras.begin(), cameras.end(), of_file) > 1) refuse("several cameras have this file name");

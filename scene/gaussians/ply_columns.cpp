@@ -18,9 +18,11 @@ bool any_named(const PlyElement& vertices, std::string_view start) {
   return std::ranges::any_of(vertices.properties, [&](const auto& one) { return one.name.starts_with(start); });
 }
 
-/// At most eight names, and the number of others.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kShown = 8;
+/// At most eight names, the start of long ones, and the number of others.
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t kShown = 8, kLongest = 40;
+  for (std::string& name : names)
+    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
   if (names.size() <= kShown) return fmt::format("{}", fmt::join(names, " "));
   return fmt::format("{} and {} others", fmt::join(names.begin(), names.begin() + kShown, " "), names.size() - kShown);
 }

@@ -113,6 +113,14 @@ PlyElement element_of(const Lines& lines, const std::vector<std::string>& words)
   return {.name = words[1], .count = *count, .properties = {}};
 }
 
+/// Trained scenes have about 60 properties.
+void check_count(const Lines& lines, std::size_t count, const char* what) {
+  constexpr std::size_t kMost = 4096;
+  if (count >= kMost)
+    lines.refuse(fmt::format("too many {}", what), fmt::format("at most {}", kMost), "more",
+                 "the header is damaged: write or download the file again");
+}
+
 void add_property(const Lines& lines, const std::vector<std::string>& words, PlyElement& to) {
   const bool list = words.size() == 5 && words[1] == "list" && type_named(words[2]) && type_named(words[3]);
   if (list) {
@@ -128,6 +136,7 @@ void add_property(const Lines& lines, const std::vector<std::string>& words, Ply
     if (other.name == words[2])
       lines.refuse(fmt::format("the property {} is given twice", other.name), {}, {}, "remove one of them");
   }
+  check_count(lines, to.properties.size(), "properties");
   to.properties.push_back({words[2], *type});
 }
 
@@ -168,6 +177,7 @@ PlyHeader read_ply_header(std::string_view text, const std::string& where) {
       PlyElement element = element_of(lines, words);
       if (header.find(element.name) != nullptr)
         lines.refuse(fmt::format("the element {} is given twice", element.name), {}, {}, "remove one of them");
+      check_count(lines, header.elements.size(), "elements");
       header.elements.push_back(std::move(element));
     } else if (words[0] == "property" && !header.elements.empty()) {
       add_property(lines, words, header.elements.back());

@@ -78,7 +78,7 @@ std::vector<double> Sog::numbers(const Json& part, const char* key, std::size_t 
 SogTable Sog::table_of(const Json& part, std::size_t channels) const {
   SogTable table;
   for (auto& channel : table) channel.fill(std::numeric_limits<double>::quiet_NaN());
-  if (part.contains("codebook")) {
+  if (part.contains("codebook") || meta_.contains("version")) {
     const auto book = numbers(part, "codebook", 1, 256);
     for (std::size_t c = 0; c < channels; ++c) std::ranges::copy(book, table[c].begin());
     return table;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "scene/gaussians/byte_words.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
@@ -25,6 +27,14 @@ void read_splat(const std::string& bytes, GaussianCloud& cloud) {
                  .got = fmt::format("{} bytes, {} too many", bytes.size(), bytes.size() % kSplatBytes),
                  .fix = "the file is truncated or not a .splat file: write or download it again"});
   }
+  // The format has no signature. The first Gaussian's eight numbers are never text.
+  const auto is_text = [](unsigned char c) { return c == '\t' || c == '\n' || c == '\r' || (c >= ' ' && c < 127); };
+  if (std::all_of(bytes.begin(), bytes.begin() + std::ptrdiff_t{kSplatBytes}, is_text))
+    throw_input({.where = where,
+                 .what = "not a .splat file",
+                 .expected = fmt::format("binary, {} bytes a Gaussian", kSplatBytes),
+                 .got = "text",
+                 .fix = "check that this is the right file"});
   GaussianRows rows(cloud, where);
   for (std::size_t at = 0; at < bytes.size(); at += kSplatBytes) {
     Gaussian one;

@@ -103,8 +103,8 @@ TEST(DensityErrors, SegmentsOfTheTransferFunctionMendIt) {
   const cmodel::Config config = with_densities("fine", 3);
   const Chain chain(scene, config);
   const Attribution a = attribute(chain, {.quick = true, .threads = 1});
-  const auto tried =
-      try_suggestion([&](const cmodel::Config& other) { return std::make_unique<Chain>(scene, other); }, config, a, 1);
+  const auto tried = try_suggestion([&](const cmodel::Config& other) { return std::make_unique<Chain>(scene, other); },
+                                    config, a, false, 1);
   ASSERT_TRUE(tried);
   std::printf("[figure] 8 segments: transfer %.1f %% of RMS %.3f LSB8; %s: RMS %.3f\n",
               100.0 * step(a, "transfer").share, a.total.rms * lsb_per_unit(8), tried->suggestion.changes.c_str(),

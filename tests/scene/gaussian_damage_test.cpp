@@ -99,6 +99,15 @@ const std::vector<Damage>& damages() {
        [] { return replaced(ascii(), "end_header\n", "end_header\n0x12 "); },
        {"not a number", "'0x12'"}},
       {"splat_empty", ".splat", [] { return std::string(); }, {"empty"}},
+      {"splat_of_text", ".splat", [] { return std::string(64, 'a'); }, {"got text"}},
+      {"properties",
+       ".ply",
+       [] {
+         std::string many;
+         for (int i = 0; i < 5000; ++i) many += "property float p" + std::to_string(i) + "\n";
+         return replaced(ascii(), "end_header", many + "end_header");
+       },
+       {"too many properties"}},
       {"splat_cut", ".splat", [] { return splat().substr(0, 100); }, {"multiple of 32", "100 bytes, 4 too many"}},
       {"splat_longer", ".splat", [] { return splat() + "x"; }, {"257 bytes, 1 too many"}},
   };

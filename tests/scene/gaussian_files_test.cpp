@@ -138,7 +138,13 @@ TEST(GaussianFiles, ClampedValuesAreCounted) {
     return all;
   };
   cloud.up = {}, cloud.antialiased = cloud.linear = false;
-  for (const char* name : {"a.ply", "a.compressed.ply", "a.spz", "a.glb"}) EXPECT_EQ(lost(name), "") << name;
+  for (const char* name : {"a.ply", "a.compressed.ply", "a.spz"}) EXPECT_EQ(lost(name), "") << name;
+  EXPECT_THAT(lost("a.glb"), HasSubstr("declares the order by distance from the eye: add --order centres"));
+  cloud.by_distance = true;
+  EXPECT_EQ(lost("a.glb"), "");
+  for (const char* name : {"a.ply", "a.spz", "a.splat"})
+    EXPECT_THAT(lost(name), HasSubstr("declares the order by depth: add --order distance")) << name;
+  cloud.by_distance = false;
   cloud.gaussians[3].scale.y = 0.0F;
   cloud.gaussians[4].scale.z = 1e12F;
   cloud.harmonics[5 * each].x = -20.0F;
@@ -154,7 +160,7 @@ TEST(GaussianFiles, ClampedValuesAreCounted) {
   EXPECT_THAT(splat, HasSubstr("holds colours from 0 to 1: those of 1 of 40 Gaussians"));
   EXPECT_THAT(splat, Not(HasSubstr("scales")));
   EXPECT_THAT(lost("a.ply"), HasSubstr("holds scales from 1e-10 to 3.4e+38: those of 1 of 40 Gaussians"));
-  EXPECT_EQ(lost("a.glb"), "");
+  EXPECT_THAT(lost("a.glb"), Not(HasSubstr("clamped")));
   // What was read from a file, the same format holds.
   for (const char* ending : {".ply", ".compressed.ply", ".spz", ".splat"}) {
     const TestFile file(ending, "");

@@ -121,10 +121,16 @@ TEST(Gltf, TextWithDataAndWithAFileBeside) {
   chunks.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(chunks.binary);
   EXPECT_LE(difference(read(".gltf", chunks.json.dump()), cloud), 1.2e-7);
   const TestFile beside(" more.bin", chunks.binary);
+  const TestFile scene(".gltf", "");
   std::string name = beside.path().filename().string();
   chunks.json["buffers"][0]["uri"] = name.replace(name.find(' '), 1, "%20");
   EXPECT_LE(difference(read(".gltf", chunks.json.dump()), cloud), 1.2e-7);
-  for (const char* elsewhere : {"/etc/passwd", "../secret.bin", "a/../../b.bin", ""}) {
+  // An output may not replace the buffer.
+  std::ofstream(scene.path()) << chunks.json.dump();
+  EXPECT_THAT(files_of_gaussians(scene.path()), ElementsAre(scene.path(), beside.path()));
+  const std::string with_zero("none.bin\0x", 10);
+  for (const std::string& elsewhere : {std::string("/etc/passwd"), std::string("../secret.bin"),
+                                       std::string("a/../../b.bin"), std::string(), with_zero}) {
     chunks.json["buffers"][0]["uri"] = elsewhere;
     EXPECT_THAT(refusal_of(".gltf", chunks.json.dump()), HasSubstr("in the header's folder"));
   }
@@ -242,7 +248,7 @@ TEST(Gltf, ManyNodesWithOneMeshAreRefusedBeforeTheyFillMemory) {
 }
 
 TEST(Gltf, DamageIsNamed) {
-  const Chunks whole = written(make_synthetic_gaussians("cloud:30"));
+  const Chunks whole = written(make_synthetic_gaussians("shells:30"));
   const auto changed = [&](const std::function<void(Json&)>& change) {
     Chunks chunks = whole;
     change(chunks.json);
@@ -272,7 +278,7 @@ TEST(Gltf, DamageIsNamed) {
        "matrix is invalid"},
       {changed([](Json& json) { json["accessors"][0]["count"] = std::size_t{1} << 62U; }), "outside its buffer"},
       {changed([](Json& json) { json["accessors"][0]["count"] = 29; }), "differ in number"},
-      {changed([](Json& json) { json["accessors"][0]["byteOffset"] = 999999999; }), "outside its buffer"},
+      {changed([](Json& json) { json["accessors"][0]["byteOffset"] = 999999999; }), "outside its buffer view"},
       {changed([](Json& json) { json["accessors"][0]["type"] = "VEC4"; }), "wrong shape"},
       {changed([](Json& json) { json["accessors"][0]["componentType"] = 5127; }), "unknown componentType"},
       {changed([](Json& json) { json["accessors"][0]["normalized"] = true; }), "5126 normalized"},
@@ -299,7 +305,16 @@ TEST(Gltf, DamageIsNamed) {
       {changed([](Json& json) { json["accessors"][0]["sparse"] = Json::object(); }), "sparse"},
       {changed([](Json& json) { json["accessors"][0].erase("bufferView"); }), "sparse or has no data"},
       {changed([](Json& json) { json["bufferViews"][0]["byteLength"] = ~std::uint64_t{0}; }), "outside its buffer"},
-      {changed([](Json& json) { json["bufferViews"][0]["byteStride"] = 4; }), "outside its buffer"},
+      {changed([](Json& json) { json["bufferViews"][0]["byteStride"] = 4; }), "invalid byteStride (expected 12 to"},
+      {changed([](Json& json) { json["asset"]["minVersion"] = "2.5"; }), "asset.minVersion"},
+      {changed([](Json& json) { json["nodes"][0]["matrix"] = {1, 0, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }),
+       "no affine transformation"},
+      {changed([](Json& json) {
+         Json& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+         for (const char* k : {"0", "1", "2", "3", "4"})
+           attributes.erase("KHR_gaussian_splatting:SH_DEGREE_2_COEF_" + std::string(k));
+       }),
+       "SH_DEGREE_2_COEF_0"},
       {changed([](Json& json) {
          json["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", 1}};
        }),

@@ -60,6 +60,8 @@ TEST(GaussianRows, BadOnesAreDroppedAndNamed) {
       EXPECT_THAT(read.remarks, ElementsAre(AllOf(HasSubstr("1 of 12 Gaussians"), HasSubstr("Gaussian 5 (from 0)"),
                                                   HasSubstr(one.fault))))
           << one.name << ", " << format;
+      EXPECT_EQ(read.number_of(4), 4U);
+      EXPECT_EQ(read.number_of(5), 6U) << "numbers are the file's";
       ++files;
     }
   }

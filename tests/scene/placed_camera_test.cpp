@@ -251,6 +251,8 @@ TEST(PlacedCamera, CamerasAreFoundByNameAndNumber) {
   EXPECT_EQ(find_camera(file, "left/c.png"), 4U);
   for (const char* none : {"7", "01", "-1", "c", "c.png", "e", ""})
     EXPECT_THROW(find_camera(file, none), UserError) << none;
+  file.cameras.push_back({.name = "d"});
+  EXPECT_THROW(find_camera(file, "d"), UserError) << "two have this name";
 }
 
 TEST(PlacedCamera, DamagedFilesAreRefusedInOneLine) {
@@ -363,6 +365,7 @@ TEST(PlacedCamera, ABoxKeepsTheGaussiansWithTheirCentresInIt) {
     if (p.x < -0.25F || p.x > 0.5F || p.y < -1.0F || p.y > 0.0F) continue;
     ASSERT_LT(at, part.gaussians.size());
     EXPECT_EQ(part.gaussians[at], whole.gaussians[i]);
+    EXPECT_EQ(part.number_of(at), i);
     EXPECT_TRUE(std::ranges::equal(part.harmonics_of(at), whole.harmonics_of(i)));
     ++at;
   }

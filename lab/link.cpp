@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
@@ -53,6 +54,22 @@ Query query_of(std::string_view text) {
     words.emplace(decoded(one.substr(0, equals)), decoded(one.substr(std::min(one.size(), equals + 1))));
   }
   return words;
+}
+
+/// What the state does not follow: unknown words, and a size that is not one or not within the limits.
+Json ignored_of(const Query& words, const Json& state) {
+  std::set<std::string> known{"scene",  "volume",      "gaussians", "tf",   "tf_toml", "kernel",
+                              "config", "config_hash", "toml",      "size", "view"};
+  for (const scene::Setting& setting : scene::settings()) known.insert("s." + scene::dotted(setting));
+  for (const auto& setting : gaussian_settings()) known.insert("s." + setting.at("name").get<std::string>());
+  for (const cmodel::ConfigKey& key : cmodel::config_keys()) known.insert("k." + std::string(key.name));
+  Json ignored = Json::array();
+  for (const auto& [name, value] : words) {
+    const bool other_size =
+        name == "size" && value != fmt::format("{}x{}", state["width"].get<int>(), state["height"].get<int>());
+    if (other_size || (!name.empty() && !known.contains(name))) ignored.push_back((name + "=" + value).substr(0, 80));
+  }
+  return ignored;
 }
 
 bool is_built_in(const std::string& volume) {
@@ -138,6 +155,7 @@ Json state_of_link(const std::string& link) {
     if (const auto found = words.find("k." + std::string(key.name)); found != words.end())
       state["changes"][key.name] = found->second;
   }
+  if (Json ignored = ignored_of(words, state); !ignored.empty()) state["ignored"] = std::move(ignored);
   return state;
 }
 

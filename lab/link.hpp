@@ -11,7 +11,8 @@ namespace fastsplat::lab {
 /// "config", "toml", "changes": {KEY: text}}. `link`: an address or its part from "#" on,
 /// "volume=...&config=...&size=WxH&s.SETTING=...& k.KEY=..."; "scene=TEXT", a scene.toml, stands in place of volume and
 /// settings, and a changed configuration's name, "tiny+radial.entries=64", in place of config and changes. Absent words
-/// keep their defaults, unknown ones are left out. Throws UserError (Usage) for other addresses.
+/// keep their defaults; "ignored" lists unknown ones and a size outside the limits, if any. Throws UserError (Usage)
+/// for other addresses.
 nlohmann::ordered_json state_of_link(const std::string& link);
 
 /// The request "frame" for a state. A transfer function of its own is "tf.toml".

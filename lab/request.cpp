@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -38,8 +39,10 @@ bool is_idle(const Request& read, const std::string& name) {
 
 constexpr std::string_view kFiles = "/files/";
 
-/// A name as the command has it.
-std::string outside(const std::string& path) { return path.starts_with(kFiles) ? path.substr(kFiles.size()) : path; }
+/// A name as the command has it. Each drop of files has a folder of its own.
+std::string outside(const std::string& path) {
+  return path.starts_with(kFiles) ? std::filesystem::path(path).filename().string() : path;
+}
 
 bool shapes_kernel(const std::string& setting) { return setting == "kernel.a" || setting == "kernel.radius"; }
 
@@ -134,7 +137,7 @@ std::string flag_text(const scene::Setting& setting, const scene::SceneDescripti
   return text;
 }
 
-std::string command_line(const Json& request, const Request& read) {
+std::string command_line(const Json& request, const Request& read, bool golden_only) {
   const scene::SceneDescription& d = read.scene;
   std::string line = "fastsplat render ";
   line += read.gaussians ? "--gaussians " + shell_word(outside(read.gaussians->name)) + read.gaussians->flags
@@ -149,6 +152,7 @@ std::string command_line(const Json& request, const Request& read) {
     if (name == "camera.projection" && !read.gaussians) line += " --perspective";
     if (*setting.flag != '\0') line += fmt::format(" {} {}", setting.flag, shell_word(value.get<std::string>()));
   }
+  if (golden_only) return line + " --engine golden --out golden.exr";
   line += " --engine cmodel --config " +
           shell_word(text_of(request, "toml", "").empty() ? text_of(request, "config", "base") : "mine.toml");
   for (const auto& change : request.value("changes", std::vector<std::string>{}))

@@ -37,8 +37,9 @@ Request read_request(const nlohmann::ordered_json& json);
 /// A setting's value as its flag takes it.
 std::string flag_text(const scene::Setting& setting, const scene::SceneDescription& description);
 
-/// `fastsplat render` with the flags that draw the same words. Files of the page, in "/files", lose their folder;
-/// tf.toml and mine.toml stand for a transfer function and a configuration of its own.
-std::string command_line(const nlohmann::ordered_json& request, const Request& read);
+/// `fastsplat render` with the flags that draw the same words; `golden_only`: those of the golden renderer. Files of
+/// the page, in "/files", lose their folders; tf.toml and mine.toml stand for a transfer function and a configuration
+/// of its own.
+std::string command_line(const nlohmann::ordered_json& request, const Request& read, bool golden_only = false);
 
 }  // namespace fastsplat::lab

@@ -218,12 +218,8 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
   const Image& golden = view != nullptr ? view->golden : golden_of(kept(request.scene));
   const auto& remarks = view != nullptr ? view->scene.cloud->remarks : kept(request.scene).scene.remarks;
   pictures.push_back(words_of("golden", golden));
-  Json out{{"idle", idle_json(request.idle)},
-           {"command", command_line(json, request)},
-           {"remarks", remarks},
-           {"width", golden.width},
-           {"height", golden.height},
-           {"config", config_json(request.config)}};
+  Json out{{"idle", idle_json(request.idle)}, {"command", {}},           {"remarks", remarks},
+           {"width", golden.width},           {"height", golden.height}, {"config", config_json(request.config)}};
   try {
     const Drawn device = drawn(request);
     pictures.push_back(words_of("device", device.frame));
@@ -236,6 +232,7 @@ Json Session::frame(const Json& json, std::vector<Words>& pictures) {
   } catch (const UserError& error) {
     out["device_error"] = error.what();
   }
+  out["command"] = command_line(json, request, out.contains("device_error"));
   for (Words& words : pictures) words.encoded = view != nullptr && !view->scene.cloud->linear;
   return out;
 }

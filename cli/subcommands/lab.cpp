@@ -40,6 +40,8 @@ ExitCode run(const LabArguments& arguments) {
                  .fix = "copy the address of the lab's page; ./run lab makes the page"});
   }
   const auto state = lab::state_of_link(arguments.link);
+  for (const auto& word : state.value("ignored", nlohmann::ordered_json::array()))
+    output.warn("the page does not follow this word of the link: " + word.get<std::string>());
   const auto files = files_of(state, arguments.folder);
   std::vector<std::string> names{arguments.common.json};
   if (!arguments.folder.empty()) {

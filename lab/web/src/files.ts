@@ -2,30 +2,35 @@
 // Files from the user's disk: dropped or chosen. Sorts them by kind; a file too large is refused before it is read.
 import { h } from "../../../report/web/src/dom";
 
+/** A header names others of the drop, its data. */
+type Kind = "header" | "volume" | "gaussians" | "data";
+
 export interface Taken {
-  /** A volume, with the files that its header names, or Gaussians; the first is the one to show. */
-  volumes: { name: string; blob: Blob }[];
-  /** Whether the first file holds 3-D Gaussians. */
-  gaussians: boolean;
+  /** The first is the one to show. */
+  volumes: { name: string; blob: Blob; kind: Kind }[];
   tf: string | null;
   config: string | null;
 }
 
-/** A name that is safe as a path and in a link. */
+/** A name that is safe as a path. */
 function safe(name: string): string {
-  return name.replace(/[^A-Za-z0-9._-]/g, "_").replace(/^\.+/, "_") || "volume";
+  return name.replace(/[/\\\p{Cc}]/gu, "_").replace(/^\.+/, "_") || "volume";
 }
 
 const is_text = /\.toml$/i;
 /** Raw data that a header in another file names. */
 const is_data = /\.(raw|zraw|img|bin)$/i;
+const is_header = /\.(nhdr|mhd|hdr)$/i;
 /** The engine reads all of them but `.sog`, which it names. */
 const is_gaussians = /\.(ply|splat|spz|glb|ksplat|sog)$/i;
-const is_volume = /\.(nii|nrrd|nhdr|mha|mhd|hdr|raw|zraw|img|bin|gz)$/i;
+const is_volume = /\.(nii|nrrd|mha|gz)$/i;
+const order: Kind[] = ["header", "volume", "gaussians", "data"];
 
 /** Reads dropped files. Throws an Error with one line about the first that cannot be used. */
 export async function taken(files: File[], most_bytes: number): Promise<Taken> {
-  const result: Taken = { volumes: [], gaussians: false, tf: null, config: null };
+  const result: Taken = { volumes: [], tf: null, config: null };
+  // Data may have any name.
+  const with_header = files.some((file) => is_header.test(file.name));
   for (const file of files) {
     const mb = (bytes: number): string => `${Math.round(bytes / 1e6)} MB`;
     if (file.size > most_bytes) throw new Error(`${file.name}: too large for a page: at most ${mb(most_bytes)}, got ${mb(file.size)}; use the program`);
@@ -35,14 +40,13 @@ export async function taken(files: File[], most_bytes: number): Promise<Taken> {
       const text = await file.text();
       if (/^\s*points\s*=/m.test(text) || /^\s*\[\[points\]\]/m.test(text)) result.tf = text;
       else result.config = text;
-    } else if (is_volume.test(file.name) || is_gaussians.test(file.name)) {
-      result.volumes.push({ name: safe(file.name), blob: file });
     } else {
-      throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz), 3-D Gaussians (.ply, .splat, .spz, .glb, .ksplat) or a .toml file`);
+      const kind: Kind | null = is_header.test(file.name) ? "header" : is_gaussians.test(file.name) ? "gaussians" : with_header || is_data.test(file.name) ? "data" : is_volume.test(file.name) ? "volume" : null;
+      if (kind) result.volumes.push({ name: safe(file.name), blob: file, kind });
+      else throw new Error(`${file.name}: not a volume (.nii, .nrrd, .mha, .mhd, also .gz), 3-D Gaussians (.ply, .splat, .spz, .glb, .ksplat) or a .toml file`);
     }
   }
-  result.volumes.sort((a, b) => Number(is_data.test(a.name)) - Number(is_data.test(b.name)));
-  result.gaussians = is_gaussians.test(result.volumes[0]?.name ?? "");
+  result.volumes.sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind));
   return result;
 }
 

@@ -22,6 +22,11 @@ export function link_request(hash: string): Request {
   return { ask: "link", link: hash.startsWith(prefix) ? hash : "" };
 }
 
+/** The state of an answer, and a notice about what the address has and the state has not. */
+export function state_of({ ignored, ...lab }: Lab & { ignored?: string[] }): { lab: Lab; notice: string } {
+  return { lab, notice: ignored ? `Not followed in this link: ${ignored.join(", ")}` : "" };
+}
+
 /** The configuration's hash, if the address has it: a report's does. */
 export function hash_of_link(hash: string): string {
   return (hash.startsWith(prefix) && new URLSearchParams(hash.slice(prefix.length)).get("config_hash")) || "";

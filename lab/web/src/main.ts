@@ -6,7 +6,7 @@ import { start_theme } from "../../../report/web/src/theme";
 import type { Tables } from "./answers";
 import { Engine, type Files } from "./engine";
 import type { Lab } from "./lab_state";
-import { link_request } from "./link";
+import { link_request, state_of } from "./link";
 import { Page } from "./page";
 import { load_program } from "./program";
 import { Shelf } from "./shelf";
@@ -31,12 +31,12 @@ async function start(): Promise<void> {
       wrong = error.message;
       return quick.ask<Lab>("link", link_request(""));
     });
-    const { json: lab } = await linked;
+    const { lab, notice: ignored } = state_of((await linked).json);
     const slow = new Engine(program, files, (message) => notice(message));
     const page = new Page(tables.json, lab, quick, slow, new Shelf(files, [quick, slow], tables.json.limits.most_bytes));
     notice = (message) => page.notice(message);
     page.begin();
-    if (wrong) page.notice(wrong);
+    if (wrong || ignored) page.notice(wrong || ignored);
   } catch (error) {
     main.replaceChildren(h("p", { class: "broken", role: "alert" }, `The lab cannot start: ${(error as Error).message}`));
     document.documentElement.dataset.ready = "error";

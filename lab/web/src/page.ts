@@ -8,7 +8,7 @@ import { Drawer, type Shown } from "./drawer";
 import { Dropped, type Engine } from "./engine";
 import { listen_for_files, save, taken } from "./files";
 import { Store, type Lab } from "./lab_state";
-import { hash_of_link, link_of, link_request, view_of_link } from "./link";
+import { hash_of_link, link_of, link_request, state_of, view_of_link } from "./link";
 import { Measures } from "./measures";
 import { Panes } from "./panes";
 import { device_key, request_of } from "./requests";
@@ -163,7 +163,9 @@ export class Page {
     const request = link_request(location.hash);
     if (!request.link) return;
     try {
-      this.store.set((await this.quick.ask<Lab>("link", request)).json);
+      const { lab, notice } = state_of((await this.quick.ask<Lab>("link", request)).json);
+      this.store.set(lab);
+      if (notice) this.notice(notice);
     } catch (error) {
       if (!(error instanceof Dropped)) this.status.show_error((error as Error).message);
     }
@@ -199,7 +201,7 @@ export class Page {
     this.slowly.show(shown);
     if (!draft && shown.lab === this.store.now) this.drawn = shown.lab;
     const root = document.documentElement;
-    Object.assign(root.dataset, { ready: "1", frames: String(++this.frames), settled: String(this.drawn !== null), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
+    Object.assign(root.dataset, { ready: "1", stale: "false", frames: String(++this.frames), settled: String(this.drawn !== null), ms: shown.ms.toFixed(1), engineMs: shown.engine_ms.toFixed(1), size: `${frame.width}x${frame.height}`, draft: String(draft), hash: frame.words_hash ?? "" });
     if (!draft) this.tried.add(shown);
     if (this.wanted_hash && this.wanted_hash !== frame.config.hash) this.notice(`The report's configuration ${frame.config.name} has the hash ${this.wanted_hash}; this one has ${frame.config.hash}. Set its changed keys, or drop its file.`);
     this.wanted_hash = "";
@@ -209,11 +211,12 @@ export class Page {
     document.documentElement.dataset.ready ??= "1";
     if (cancelled) return this.notice("Cancelled: the pictures and figures are those of an earlier state.");
     const subject = subject_of(this.store.now);
-    const file = name_of(subject).startsWith("/files/") ? shown_name(subject) : "";
-    if (file && !this.shelf.has(file)) return this.status.show_error(`This link shows the file ${file}: drop it on the page.`);
+    const file = name_of(subject).startsWith("/files/") ? name_of(subject).slice("/files/".length) : "";
+    if (file && !this.shelf.has(file)) return this.status.show_error(`This link shows the file ${shown_name(subject)}: drop it on the page.`);
     this.device.show_error(message);
     this.scene.show_error(message);
-    this.status.show_error(message);
+    this.status.show_error(message + (this.frames > 0 ? ". Pictures and figures are those of an earlier state." : ""));
+    document.documentElement.dataset.stale = "true";
   }
 
   // --- configurations and files --------------------------------------------------------------------------------------
@@ -241,16 +244,18 @@ export class Page {
     }
   }
 
-  /** Takes a configuration if the engine reads it. */
-  private async use_config(toml: string): Promise<void> {
-    if (toml.trim() === "") return;
+  /** Takes a configuration if the engine reads it. False if it does not. */
+  private async use_config(toml: string, take = true): Promise<boolean> {
+    if (toml.trim() === "") return true;
     try {
       await this.quick.ask<Config>("use", request_of(this.tables, { ...this.store.now, toml, changes: {} }, "config"));
-      this.store.set({ toml, changes: {} });
+      if (take) this.store.set({ toml, changes: {} });
+      return true;
     } catch (error) {
-      if (error instanceof Dropped) return;
+      if (error instanceof Dropped) return false;
       this.device.show_file_error((error as Error).message);
       this.status.show_error((error as Error).message);
+      return false;
     }
   }
 
@@ -258,20 +263,24 @@ export class Page {
     if (list.length === 0) return;
     let path = "";
     try {
-      const { volumes, gaussians, tf, config } = await taken(list, this.tables.limits.most_bytes);
-      if (config !== null) await this.use_config(config);
-      if (volumes.length === 0 && tf === null) return;
+      const { volumes, tf, config } = await taken(list, this.tables.limits.most_bytes);
+      const alone = volumes.length === 0 && tf === null;
+      if (config !== null && (!(await this.use_config(config, alone)) || alone)) return;
       if (volumes.length) path = this.shelf.add_volume(volumes);
-      const subject = path ? word_of(path, gaussians) : subject_of(this.store.now);
-      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...to_subject(this.store.now, subject, this.tables) };
+      const subject = path ? word_of(path, volumes[0].kind === "gaussians") : subject_of(this.store.now);
+      const next = { ...this.store.now, ...(tf === null ? {} : { tf_toml: tf }), ...to_subject(this.store.now, subject, this.tables), ...(config ? { toml: config, changes: {} } : {}) };
       this.shelf.prepare(next);
+      if (path) this.notice(`Reading ${shown_name(subject)}\u2026`);
       // Tried before it is taken: a file that cannot be read leaves everything as it is.
       await this.quick.ask("file", request_of(this.tables, next, "frame", { width: 64, height: 64 }));
-      if (path) this.scene.add_file(subject);
+      const folder = path.slice(0, path.lastIndexOf("/") + 1);
+      for (const { name, kind } of volumes) if (kind !== "data") this.scene.add_file(word_of(folder + name, kind === "gaussians"));
       this.store.set(next);
     } catch (error) {
       this.shelf.remove(path);
-      if (!(error instanceof Dropped)) this.status.show_error((error as Error).message.replaceAll("/files/", ""));
+      if (!(error instanceof Dropped)) this.status.show_error((error as Error).message.replaceAll(/\/files\/(\d+\/)?/g, ""));
+    } finally {
+      if (path) this.notice("");
     }
   }
 }

@@ -13,6 +13,7 @@ interface Volume {
 
 export class Shelf {
   private volumes: Volume[] = [];
+  private drops = 0;
 
   constructor(
     private readonly files: Files,
@@ -34,15 +35,14 @@ export class Shelf {
     if (lab.tf_toml && !this.has(tf_file(lab))) this.add(tf_file(lab), new Blob([lab.tf_toml]));
   }
 
-  /** Adds a volume: the first file, and the ones that it names. Returns its path. */
+  /** Adds the files of one drop, the one to show first, to a folder of their own: the engine keeps volumes by path, and a
+   *  header finds its data. Returns the first one's path. */
   add_volume(parts: { name: string; blob: Blob }[]): string {
-    let { name } = parts[0];
-    // The engine keeps volumes by name, so another file of the same name gets another one.
-    while (this.has(name)) name = `again-${name}`;
-    const all = [{ name, blob: parts[0].blob }, ...parts.slice(1)];
-    for (const part of all) this.add(part.name, part.blob);
-    const path = `/files/${name}`;
-    this.volumes.push({ path, names: all.map((part) => part.name), bytes: all.reduce((sum, part) => sum + part.blob.size, 0) });
+    const folder = `${++this.drops}/`;
+    const names = parts.map((part) => folder + part.name);
+    parts.forEach((part, i) => this.add(names[i], part.blob));
+    const path = `/files/${names[0]}`;
+    this.volumes.push({ path, names, bytes: parts.reduce((sum, part) => sum + part.blob.size, 0) });
     while (this.volumes.length > 1 && this.volumes.reduce((sum, each) => sum + each.bytes, 0) > this.most_bytes) this.remove(this.volumes[0].path);
     return path;
   }

@@ -10,8 +10,8 @@ export const word_of = (name: string, gaussians: boolean): string => (gaussians 
 export const subject_of = (lab: Lab): string => (lab.gaussians ? word_of(lab.gaussians, true) : lab.volume);
 /** The path or built-in name. */
 export const name_of = (subject: string): string => subject.replace(mark, "");
-/** Without the page's own folder. */
-export const shown_name = (subject: string): string => name_of(subject).replace("/files/", "");
+/** Without the page's own folders. */
+export const shown_name = (subject: string): string => name_of(subject).replace(/^\/files\/(\d+\/)?/, "");
 
 /** The change to another subject. Gaussians need a device that composites every sample of ellipses. */
 export function to_subject(lab: Lab, subject: string, tables: Tables): Partial<Lab> {

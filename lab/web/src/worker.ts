@@ -3,7 +3,7 @@
 import type { Request } from "./answers";
 
 interface Module {
-  FS: { mkdir(path: string): void; writeFile(path: string, bytes: Uint8Array): void; unlink(path: string): void };
+  FS: { mkdir(path: string): void; writeFile(path: string, bytes: Uint8Array): void; unlink(path: string): void; analyzePath(path: string): { exists: boolean } };
   HEAP32: Int32Array;
   _malloc(bytes: number): number;
   _free(at: number): void;
@@ -63,6 +63,8 @@ async function take(message: ToWorker): Promise<void> {
     module.FS.mkdir("/files");
     scope.postMessage({ kind: "ready" });
   } else if (message.kind === "file") {
+    const folder = message.name.indexOf("/");
+    if (folder > 0 && !module?.FS.analyzePath(`/files/${message.name.slice(0, folder)}`).exists) module?.FS.mkdir(`/files/${message.name.slice(0, folder)}`);
     module?.FS.writeFile(`/files/${message.name}`, new Uint8Array(await message.blob.arrayBuffer()));
   } else if (message.kind === "remove") {
     module?.FS.unlink(`/files/${message.name}`);

@@ -285,6 +285,53 @@ test("files: good, cut, foreign, empty, huge", async () => {
   await page.finish();
 });
 
+test("files of one name, several at once, and what a drop does not change", async () => {
+  const page = await open({ hash: small });
+  const file = (name, buffer) => ({ name, mimeType: "application/octet-stream", buffer: Buffer.from(buffer) });
+  const drop = (...files) => page.setInputFiles("#file", files);
+  const said = async (files, pattern) => {
+    await page.evaluate(() => (document.getElementById("error").textContent = ""));
+    await drop(...files);
+    await page.waitForFunction((text) => new RegExp(text).test(document.getElementById("error").textContent), pattern.source);
+  };
+  const chosen = () => page.textContent("#volume option:checked");
+  const hash_of = async (...files) => (await rest(page, () => drop(...files)), shown_hash(page));
+  const large = await hash_of(file("large.nrrd", nrrd(24))), other = await hash_of(file("other.nrrd", nrrd(20)));
+  assert.notEqual(large, other);
+  // A name is given again: after a refused drop, for the data of two headers, beside another volume.
+  await said([file("d.nrrd", nrrd(24)), file("bad.toml", "points = [{at = 0.1}]")], /./);
+  assert.equal(await hash_of(file("d.nrrd", nrrd(20))), other);
+  const header = (n) => `ObjectType = Image\nNDims = 3\nDimSize = ${n} ${n} ${n}\nElementType = MET_UCHAR\nElementDataFile = the data.dat\n`;
+  const body = (n) => nrrd(n).subarray(-(n ** 3));
+  assert.equal(await hash_of(file("the data.dat", body(24)), file("a 1.mhd", header(24))), large);
+  assert.equal(await chosen(), "a 1.mhd");
+  assert.equal(await hash_of(file("the data.dat", body(20)), file("b.mhd", header(20))), other);
+  const choose = async (name) => (await rest(page, () => page.selectOption("#volume", { label: name })), shown_hash(page));
+  assert.equal(await choose("a 1.mhd"), large);
+  assert.match(await page.textContent("#command"), /--volume 'a 1\.mhd'/);
+  assert.equal(await hash_of(file("i.nrrd", nrrd(20)), file("second.nrrd", nrrd(24))), other);
+  assert.equal(await choose("second.nrrd"), large);
+  // A configuration is taken with a scene, or the scene is not taken.
+  const state = [await shown_hash(page), await chosen()];
+  await said([file("bad.toml", "[radial]\nfrac_bits = 6\n"), file("late.nrrd", nrrd(20))], /./);
+  assert.deepEqual([await shown_hash(page), await chosen()], state);
+  await rest(page, () => page.click("#undo"));
+  await page.click("#tab-device");
+  await hash_of(file("mine.toml", readFileSync(`${process.env.CONFIGS}/small.toml`)), file("third.nrrd", nrrd(20)));
+  assert.match(await page.textContent("#command"), /--volume third\.nrrd .*--config mine\.toml/);
+  // After an error the old figures are marked; a link says what is not followed.
+  await reveal(page, "camera.zoom");
+  await type(page, "camera.zoom", 1e9);
+  await page.waitForFunction(() => document.documentElement.dataset.stale === "true");
+  assert.match(await page.textContent("#error"), /earlier state/);
+  await rest(page, () => page.click("#undo"));
+  assert.equal((await data(page)).stale, "false");
+  await page.finish();
+  const linked = await open({ hash: `${small.replace("128x128", "0x99")}&k.nonsense=3` });
+  assert.match(await linked.textContent("#notice"), /Not followed in this link: k\.nonsense=3, size=0x99/);
+  await linked.finish();
+});
+
 test("3-D Gaussians: built in and dropped", async () => {
   const page = await open({ hash: small });
   const volume = await shown_hash(page);

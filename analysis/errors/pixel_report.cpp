@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "analysis/error_values.hpp"
 #include "base/error.hpp"
@@ -342,11 +343,13 @@ std::string to_text(const PixelReport& report, const stages::Chain& chain, const
   const Pairs pairs(report, chain);
   const std::vector<Sheet> sheets = pairs.sheets();
   const std::size_t c = report.channel;
+  std::set<std::uint32_t> splats;  // of either side, as in the tables
+  for (const Sheet& sheet : sheets)
+    for (const Splat& splat : sheet.splats) splats.insert(splat.index);
   std::string text =
       fmt::format("pixel {},{}: {}{}\n\n", report.x, report.y,
-                  chain.gaussians() != nullptr
-                      ? fmt::format("{} Gaussians", report.device.sheets.size())
-                      : fmt::format("{} splats, {} sheets", report.device.splats.size(), report.device.sheets.size()),
+                  chain.gaussians() != nullptr ? fmt::format("{} Gaussians", sheets.size())
+                                               : fmt::format("{} splats, {} sheets", splats.size(), sheets.size()),
                   report.device.terminated ? ", then terminated" : "");
   text += fmt::format("{:<8} {:>11} {:>11} {:>11} {:>13}\n", "channel", "real", "device", "word", "error, " + lsb);
   for (const Quantity& one : pairs.out())

@@ -258,6 +258,9 @@ TEST(PixelReport, WordsAreIntegersAndSplatsWhole) {
           fractions += std::floor(one.at("word").get<double>()) == one.at("word").get<double>() ? 0 : 1;
         }
       };
+      const std::string counts =
+          std::to_string(json.at("splats").size()) + " splats, " + std::to_string(json.at("sheets").size()) + " sheets";
+      EXPECT_NE(analysis::to_text(report, chain, {}, 8).find(counts), std::string::npos) << counts;
       take(json.at("pixel"));
       for (const auto& sheet : json.at("sheets")) {
         take(sheet.at("together"));

@@ -22,10 +22,6 @@ class FrameWork final : public cmodel::CycleSink {
 
   /// On `devices` devices that composite blocks in `slices`.
   double cycles(int devices, int slices) const;
-  /// Share of the frame until the first tile: wipe and tables.
-  double tables() const {
-    return tiles_.empty() ? 0.0 : static_cast<double>(tiles_.front().begun) / static_cast<double>(end_);
-  }
   /// Ideal cycles of all tiles; its windows for 0 slices.
   double work(int slices) const;
 

@@ -100,10 +100,7 @@ void SpeedSearch::begin(const Config& config) {
   if (config == config_) return;
   config_ = config;
   terminations_.clear();
-  // Other widths have other tables. Where these take no time, the frame's work stays as it is.
-  std::erase_if(work_, [](const auto& known) {
-    return std::ranges::any_of(known.second, [](const FrameWork& frame) { return frame.tables() > 0.005; });
-  });
+  work_.clear();  // other widths have other tables, and other splats that vanish
 }
 
 const SpeedSearch::Compiled* SpeedSearch::compiled(const Config& device) {

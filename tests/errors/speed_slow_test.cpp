@@ -178,6 +178,27 @@ TEST(ProposedSpeed, IsMetAndNoNeighbourHasLessArea) {
   }
 }
 
+// With narrow words more splats vanish: base's words need twice as many devices.
+TEST(ProposedSpeed, DevicesAreAsManyAsTheProposedWordsNeed) {
+  scene::SceneDescription description;
+  description.volume = "shells:48";
+  description.width = description.height = 256;
+  description.opacity_scale = 0.05;
+  std::vector<scene::Scene> one;
+  one.push_back(scene::build_scene(description));
+  const Targets targets = parse_targets({"psnr>=50", "fps>=2000"});
+  Journal journal;
+  const Proposal p = propose(one, {"shells"}, driver::load_config("base"), targets, kClock, journal, 0);
+  ASSERT_TRUE(p.met()) << to_text(p);
+  const int devices = p.speed->proposed->devices;
+  ASSERT_GT(devices, 2);
+  const Counted counted(one, p.config);
+  std::printf("[figure] frames a second of %d devices = %.1f (limit >= 2000), of %d = %.1f (limit < 2000)\n", devices,
+              counted.fps(devices), devices - 1, counted.fps(devices - 1));
+  EXPECT_GE(counted.fps(devices), 2000.0);
+  EXPECT_LT(counted.fps(devices - 1), 2000.0);
+}
+
 TEST(ProposedSpeed, AnArrangementChangesNoPixel) {
   const auto two = scenes();
   const Config base = driver::load_config("base");

@@ -47,20 +47,26 @@ const Format* format_by_ending(const std::string& ending) {
   return found == kFormats.end() ? nullptr : found;
 }
 
-/// The buffers of a .gltf and the pictures of a meta.json: every string in it that names a file beside it.
+using Json = nlohmann::json;
+
+/// The files in `folder` that strings in `json` name. parse_json() limits its depth.
+void add_named_files(const Json& json, const std::filesystem::path& folder, std::vector<std::filesystem::path>& files) {
+  if (json.is_structured())
+    for (const Json& value : json) add_named_files(value, folder, files);
+  if (!json.is_string() || json.get_ref<const std::string&>().size() > 255) return;
+  const std::filesystem::path file = folder / from_uri(json.get<std::string>());
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) files.push_back(file);
+}
+
+/// Adds the buffers of a .gltf, and the pictures of a meta.json.
 void add_named_files(std::vector<std::filesystem::path>& files) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 24;  // larger ones hold their data
-  using Json = nlohmann::json;
   const std::filesystem::path scene = files[0];
   std::error_code error;
   if (!std::filesystem::is_regular_file(scene, error) || std::filesystem::file_size(scene, error) > kMostBytes) return;
   try {
-    const Json words = parse_json<Json>(read_text_file(scene, kMostBytes)).flatten();
-    for (const Json& value : words) {
-      if (!value.is_string() || value.get_ref<const std::string&>().size() > 255) continue;
-      const std::filesystem::path file = scene.parent_path() / from_uri(value.get<std::string>());
-      if (std::filesystem::is_regular_file(file, error)) files.push_back(file);
-    }
+    add_named_files(parse_json<Json>(read_text_file(scene, kMostBytes)), scene.parent_path(), files);
   } catch (const std::exception&) {  // its reader says what is wrong
   }
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "cli/image_output.hpp"
 #include "cli/progress_bar.hpp"
 #include "driver/tiles/gaussian_frame.hpp"
+#include "lab/link.hpp"
 
 namespace fastsplat::cli {
 namespace {
@@ -144,27 +144,6 @@ Image shown_of(const Image& image, const scene::Display& display, bool linear) {
   return shown;
 }
 
-/// The lab's link to the same view, from behind its "?". Empty for views that the lab does not have.
-std::string lab_link(const scene::GaussianScene& scene) {
-  const scene::GaussianDescription& description = scene.description;
-  if (description.placed || description.near || description.order || scene.cloud->cropped) return {};
-  const bool built_in = scene.cloud->source.starts_with("built-in ");
-  std::string link = "gaussians=";
-  for (const char c : (built_in ? "" : "/files/") + scene.cloud->name)
-    link += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c)
-                                                             : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  const auto& camera = description.camera;
-  return link + fmt::format(
-                    "&size={}x{}&s.camera.projection={}&s.camera.azimuth={}&s.camera.elevation={}"
-                    "&s.camera.roll={}&s.camera.zoom={}&s.camera.fov={}&s.gaussians.up={}"
-                    "&s.gaussians.low_pass={}&s.gaussians.cutoff={}",
-                    description.width, description.height,
-                    camera.projection == scene::Projection::Perspective ? "perspective" : "orthographic",
-                    camera.azimuth, camera.elevation, camera.roll, camera.zoom, camera.fov,
-                    scene::up_axis_names()[static_cast<std::size_t>(description.up)], description.low_pass,
-                    description.cutoff);
-}
-
 }  // namespace
 
 images::Metadata gaussian_metadata(const std::string& engine, const scene::GaussianScene& scene,
@@ -177,7 +156,7 @@ images::Metadata gaussian_metadata(const std::string& engine, const scene::Gauss
                             {"content_hash", hash_text(scene::content_hash(*scene.cloud))},
                             {"view", view_text(scene)},
                             {"version", program_version()}};
-  const std::string link = order == golden::GaussianOrder::Pixels ? "" : lab_link(scene);
+  const std::string link = order == golden::GaussianOrder::Pixels ? "" : lab::link_of_gaussians(scene);
   if (!link.empty()) metadata["lab"] = link;
   if (config) {
     metadata["config"] = config->name;

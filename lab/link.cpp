@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
+#include "base/percent.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "lab/limits.hpp"
 #include "lab/request.hpp"
@@ -26,23 +27,11 @@ using Query = std::map<std::string, std::string>;
 
 constexpr std::string_view kPrefix = "#lab?";
 
-std::optional<int> hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return std::nullopt;
-}
-
 /// A word of a query as a browser decodes it.
 std::string decoded(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : std::nullopt;
-    const auto low = high ? hex_digit(text[i + 2]) : std::nullopt;
-    if (low) i += 2;
-    out += low ? static_cast<char>(16 * *high + *low) : text[i] == '+' ? ' ' : text[i];
-  }
-  return out;
+  std::string spaced(text);
+  std::replace(spaced.begin(), spaced.end(), '+', ' ');
+  return percent_decoded(spaced);
 }
 
 Query query_of(std::string_view text) {
@@ -157,6 +146,20 @@ Json state_of_link(const std::string& link) {
   }
   if (Json ignored = ignored_of(words, state); !ignored.empty()) state["ignored"] = std::move(ignored);
   return state;
+}
+
+std::string link_of_gaussians(const scene::GaussianScene& scene) {
+  const scene::GaussianDescription& description = scene.description;
+  if (description.placed || description.near || description.order || scene.cloud->cropped) return {};
+  const bool built_in = scene.cloud->source.starts_with("built-in ");
+  const scene::CameraParams& camera = description.camera;
+  return fmt::format(
+      "gaussians={}&size={}x{}&s.camera.projection={}&s.camera.azimuth={}&s.camera.elevation={}&s.camera.roll={}"
+      "&s.camera.zoom={}&s.camera.fov={}&s.gaussians.up={}&s.gaussians.low_pass={}&s.gaussians.cutoff={}",
+      percent_encoded((built_in ? "" : "/files/") + scene.cloud->name), description.width, description.height,
+      camera.projection == scene::Projection::Perspective ? "perspective" : "orthographic", camera.azimuth,
+      camera.elevation, camera.roll, camera.zoom, camera.fov,
+      scene::up_axis_names()[static_cast<std::size_t>(description.up)], description.low_pass, description.cutoff);
 }
 
 Json request_of_state(const Json& state) {

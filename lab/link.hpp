@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "scene/gaussians/gaussian_scene.hpp"
+
 namespace fastsplat::lab {
 
 /// What the page shows: {"volume", "gaussians", "tf", "tf_toml", "kernel", "width", "height", "settings": {NAME: text},
@@ -14,6 +16,9 @@ namespace fastsplat::lab {
 /// keep their defaults; "ignored" lists unknown ones and a size outside the limits, if any. Throws UserError (Usage)
 /// for other addresses.
 nlohmann::ordered_json state_of_link(const std::string& link);
+
+/// The part behind "#lab?" of a link to a view of 3-D Gaussians; empty for views that the page does not have.
+std::string link_of_gaussians(const scene::GaussianScene& scene);
 
 /// The request "frame" for a state. A transfer function of its own is "tf.toml".
 nlohmann::ordered_json request_of_state(const nlohmann::ordered_json& state);

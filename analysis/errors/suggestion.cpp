@@ -104,6 +104,7 @@ std::optional<Suggestion> suggestion(Step step, const Config& config, bool gauss
   Suggestion out{config, {}};
   if (gaussians && step == Step::Snap) step = Step::Position;  // ellipses are not snapped
   apply(step, out.config);
+  // One more bit where two exceed the limits.
   if (step == Step::Position && cmodel::first_violation(out.config)) --out.config.position_frac_bits;
   if (cmodel::first_violation(out.config) || out.config == config) return std::nullopt;
   out.changes = changes(config, out.config);

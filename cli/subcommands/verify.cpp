@@ -41,7 +41,7 @@ bool has_rtl_fault(const VerifyArguments& arguments) {
 ConfigFlags config_of(const VerifyArguments& arguments) {
   ConfigFlags config = arguments.config;
   if (arguments.gaussians.file && !has_rtl_fault(arguments)) return for_gaussians(config);
-  if (!arguments.stream.empty() && arguments.fault.empty()) return for_stream(config, arguments.stream);
+  if (!arguments.stream.empty() && !has_rtl_fault(arguments)) return for_stream(config, arguments.stream);
   if (arguments.fault.empty() || config.config) return config;
   if (has_rtl_fault(arguments))
     config.config = testbench::breakable_config(testbench::planted_fault_from(arguments.fault));

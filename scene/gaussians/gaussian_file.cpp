@@ -10,9 +10,9 @@
 #include "base/error.hpp"
 #include "base/json_file.hpp"
 #include "base/lower_case.hpp"
+#include "base/percent.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/gaussian_rows.hpp"
-#include "scene/gaussians/gltf_document.hpp"
 #include "scene/gaussians/gltf_file.hpp"
 #include "scene/gaussians/ksplat_file.hpp"
 #include "scene/gaussians/other_formats.hpp"
@@ -54,7 +54,7 @@ void add_named_files(const Json& json, const std::filesystem::path& folder, std:
   if (json.is_structured())
     for (const Json& value : json) add_named_files(value, folder, files);
   if (!json.is_string() || json.get_ref<const std::string&>().size() > 255) return;
-  const std::filesystem::path file = folder / from_uri(json.get<std::string>());
+  const std::filesystem::path file = folder / percent_decoded(json.get<std::string>());
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) files.push_back(file);
 }

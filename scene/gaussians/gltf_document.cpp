@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/file_beside.hpp"
 #include "base/json_file.hpp"
+#include "base/percent.hpp"
 #include "base/read_file.hpp"
 #include "scene/gaussians/byte_words.hpp"
 #include "scene/gaussians/gaussian_file.hpp"
@@ -60,24 +61,6 @@ std::size_t size_of_type(std::size_t type) {
 }
 
 }  // namespace
-
-std::string from_uri(const std::string& uri) {
-  constexpr std::string_view kHex = "0123456789abcdef";
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const auto digit = [&](std::size_t at) {
-      return at < uri.size() ? kHex.find(static_cast<char>(uri[at] | 0x20)) : std::string_view::npos;
-    };
-    const std::size_t high = digit(i + 1), low = digit(i + 2);
-    if (uri[i] == '%' && high != std::string_view::npos && low != std::string_view::npos) {
-      append_byte(out, static_cast<std::uint32_t>(16 * high + low));
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
 
 float GltfNumbers::at(std::size_t element, std::size_t number) const {
   const std::size_t place = element * stride + number * size_of_type(static_cast<std::size_t>(type));
@@ -182,7 +165,7 @@ std::string_view GltfDocument::buffer(std::size_t index) {
       if (text.find("://") != std::string::npos)
         refuse(what + " has a remote uri", "a file in the folder of the glTF file", text.substr(0, 120),
                "download the buffer and name it in the glTF file");
-      const std::filesystem::path file = file_beside(path_, from_uri(text), path_.string() + ", " + what);
+      const std::filesystem::path file = file_beside(path_, percent_decoded(text), path_.string() + ", " + what);
       if (std::error_code ignored; !std::filesystem::exists(file, ignored))
         refuse("the file of " + what + " is missing", file.string(), {}, "keep it in the folder of the glTF file");
       own = read_text_file(file, kMostGaussianBytes);

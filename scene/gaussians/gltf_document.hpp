@@ -24,9 +24,6 @@ struct GltfNumbers {
   float at(std::size_t element, std::size_t number) const;
 };
 
-/// A name with %20 and the like as in URIs.
-std::string from_uri(const std::string& uri);
-
 /// Every refusal is a UserError (Input) that names the file.
 class GltfDocument {
  public:

@@ -29,7 +29,7 @@ void read_splat(const std::string& bytes, GaussianCloud& cloud) {
   }
   // The format has no signature. The first Gaussian's eight numbers are never text.
   const auto is_text = [](unsigned char c) { return c == '\t' || c == '\n' || c == '\r' || (c >= ' ' && c < 127); };
-  if (std::all_of(bytes.begin(), bytes.begin() + std::ptrdiff_t{kSplatBytes}, is_text))
+  if (std::ranges::all_of(std::string_view(bytes).substr(0, kSplatBytes), is_text))
     throw_input({.where = where,
                  .what = "not a .splat file",
                  .expected = fmt::format("binary, {} bytes a Gaussian", kSplatBytes),

@@ -84,6 +84,29 @@ TEST(GaussianFilesRun, StrictRefusesWhatIsDropped) {
   }
 }
 
+TEST(GaussianFilesRun, WhatIsNoSceneIsSaidSo) {
+  const TempFolder folder;
+  folder.write("x.json", "{\"a\": 1}");
+  expect_error(fastsplat({"gaussians", "info", folder / "x.json"}), 3, {"x.json", "neither a file of 3-D Gaussians"});
+  for (const char* name : {"none/meta.json", "none.ply", "none.json"})
+    expect_error(fastsplat({"gaussians", "info", folder / name}), 3, {name, "no such file"});
+}
+
+TEST(GaussianFilesRun, ACostOfFilesWithOtherColoursIsWarnedOf) {
+  const TempFolder folder;
+  expect_success(fastsplat({"gaussians", "convert", "cloud:50", folder / "a.ply"}));
+  std::string linear = read_bytes(folder / "a.ply");
+  linear.insert(linear.find("element vertex"), "comment color_space: linear\n");
+  folder.write("linear.ply", linear);
+  const auto cost = [&](const char* original) {
+    return fastsplat({"errors", "file", folder / original, folder / "a.ply", "--size", "32"});
+  };
+  const Result same = cost("a.ply"), other = cost("linear.ply");
+  expect_success(same), expect_success(other);
+  EXPECT_EQ(same.err.find("colours"), std::string::npos) << same.err;
+  EXPECT_NE(other.err.find("declares sRGB colours, the original linear"), std::string::npos) << other.err;
+}
+
 TEST(GaussianFilesRun, ConvertCountsWhatIsClamped) {
   const TempFolder folder;
   const std::string file = folder / "wide.ply";

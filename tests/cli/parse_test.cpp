@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{"flag_mistyped", {"render", "--sise", "9"}, {"--sise", "did you mean '--size'"}},
         Misuse{
             "flag_mistyped_behind_positionals", {"compare", "a", "b", "--max-lbs", "3"}, {"did you mean '--max-lsb'"}},
+        Misuse{"flag_unknown", {"render", "--projection", "x"}, {"unknown flag --projection", "--help` lists"}},
         Misuse{"short_flag_unknown", {"render", "-x"}, {"unknown flag -x"}},
         Misuse{"flag_before_verb", {"--size", "9", "render"}, {"unknown flag --size"}},
         Misuse{"value_missing_at_end", {"render", "--size"}, {"--size needs a value"}},

@@ -147,6 +147,25 @@ TEST_F(StreamSubcommands, TilesCoverTheImageForEverySubcommand) {
   }
 }
 
+// That of its hash, here tiny.
+TEST_F(StreamSubcommands, EachFindsTheStreamsConfiguration) {
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"stream", "replay", stream_, "-o", folder_ / "a.exr"},
+                                             {"stream", "vectors", stream_, "-o", folder_ / "vectors"},
+                                             {"cycles", "--stream", stream_},
+                                             {"verify", "--stream", stream_},
+                                             {"pixel", "3,0", "--tile", "0", "--stream", stream_}}) {
+    auto given = command;
+    given.insert(given.end(), {"--config", "tiny"});
+    const auto found = fastsplat(command), named = fastsplat(given);
+    expect_success(found);
+    EXPECT_EQ(found.out, named.out) << command[0];
+  }
+  // Also with a fault at the ports, which fails the comparison.
+  const auto faulty = fastsplat({"verify", "--stream", stream_, "--fault", "PORT_PIXEL"});
+  EXPECT_EQ(faulty.code, 1) << faulty.out << faulty.err;
+}
+
 TEST_F(StreamSubcommands, AResetBehindTheEndIsRefused) {
   const auto run = fastsplat({"verify", "--stream", stream_, "--config", "tiny", "--reset-after", "1000000"});
   EXPECT_EQ(run.code, 2) << run.out << run.err;

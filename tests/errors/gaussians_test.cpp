@@ -10,6 +10,7 @@
 
 #include "analysis/error_values.hpp"
 #include "analysis/errors/attribution.hpp"
+#include "analysis/errors/attribution_report.hpp"
 #include "analysis/errors/pixel_report.hpp"
 #include "scene/gaussians/synthetic_gaussians.hpp"
 #include "tests/cmodel/configs_helper.hpp"
@@ -54,6 +55,21 @@ TEST(GaussianErrors, SharesAddUpAndNameTheNarrowWord) {
       EXPECT_EQ(largest(a).set.name, blamed);
     }
   }
+}
+
+// The places of ellipses are not snapped: phases would not help.
+TEST(GaussianErrors, TheHintIsAFinerPosition) {
+  const scene::GaussianScene scene = shells();
+  cmodel::Config config = usual_config();
+  config.radial_entries = 4096;
+  const auto chain_of = [&](const cmodel::Config& other) { return std::make_unique<Chain>(scene, other, 2); };
+  const Attribution a = attribute(*chain_of(config), {.quick = true, .threads = 2});
+  const auto tried = try_suggestion(chain_of, config, a, true, 2);
+  ASSERT_TRUE(tried);
+  std::printf("[figure] %s of %s: RMS %.5f -> %.5f LSB8 (limit: less)\n", tried->suggestion.changes.c_str(),
+              tried->step.c_str(), a.total.rms * lsb_per_unit(8), tried->error.rms * lsb_per_unit(8));
+  EXPECT_EQ(tried->suggestion.changes, "position.frac_bits 8 -> 9");
+  EXPECT_LT(tried->error.rms, a.total.rms);
 }
 
 TEST(GaussianErrors, APixelsStoryAddsUpAndNamesGaussiansOfTheFile) {

@@ -10,6 +10,7 @@
 #include "base/images/image_file.hpp"
 #include "lab/link.hpp"
 #include "lab/session.hpp"
+#include "scene/gaussians/gaussian_file.hpp"
 #include "scene/settings.hpp"
 #include "tests/process/process_helper.hpp"
 
@@ -146,6 +147,31 @@ TEST_F(LabCommand, OfALinkIsThePages) {
   EXPECT_EQ(scene["settings"], (Json{{"camera.elevation", "-20.5"}, {"slabs.width", "2.0"}}));
   cli_test::expect_error(cli_test::fastsplat({"lab", "--print", "#pictures?x=1"}), 2, {"not an address of the lab"});
   cli_test::expect_error(cli_test::fastsplat({"lab"}), 2, {"--print LINK"});
+}
+
+TEST_F(LabCommand, ALinkToGaussiansHasTheirView) {
+  scene::GaussianDescription description;
+  description.camera.azimuth = 33.5, description.camera.projection = scene::Projection::Perspective;
+  description.width = 40, description.height = 32, description.up = scene::UpAxis::Z, description.cutoff = 2.0;
+  const auto link = [&](const scene::GaussianDescription& of, bool cropped) {
+    scene::GaussianCloud cloud = scene::load_gaussians("cloud:50");
+    cloud.cropped = cropped;
+    return lab::link_of_gaussians(scene::build_gaussian_scene(of, std::make_shared<scene::GaussianCloud>(cloud)));
+  };
+  const Json state = lab::state_of_link("#lab?" + link(description, false));
+  EXPECT_FALSE(state.contains("ignored")) << state;
+  EXPECT_EQ(state["gaussians"], "cloud:50");
+  EXPECT_EQ(state["width"], 40);
+  EXPECT_EQ(state["settings"]["camera.azimuth"], "33.5");
+  EXPECT_EQ(state["settings"]["gaussians.up"], "z");
+  EXPECT_EQ(state["settings"]["gaussians.cutoff"], "2");
+  // The page has neither.
+  EXPECT_EQ(link(description, true), "");
+  description.order = scene::GaussianSort::Distance;
+  EXPECT_EQ(link(description, false), "");
+  const Json odd = lab::state_of_link("#lab?size=0x99&k.nonsense=3&config=tiny");
+  EXPECT_EQ(odd["ignored"], (Json{"k.nonsense=3", "size=0x99"}));
+  EXPECT_NE(cli_test::fastsplat({"lab", "--print", "#lab?k.nonsense=3"}).err.find("k.nonsense=3"), std::string::npos);
 }
 
 TEST_F(LabCommand, OfALinkWithFilesWritesThem) {

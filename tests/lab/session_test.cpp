@@ -61,6 +61,15 @@ TEST(LabSession, TablesHoldEverySettingAndKey) {
   EXPECT_EQ(checked + 1, scene::settings().size());
 }
 
+TEST(LabSession, APictureOfGoldenAloneHasItsCommand) {
+  lab::Session session;
+  const Json frame = Json::parse(session.answer(request("frame", with(kSmall, "method", "raycast")).dump()).json);
+  EXPECT_TRUE(frame.contains("device_error"));
+  EXPECT_NE(frame["command"].get<std::string>().find("--method raycast --engine golden --out golden.exr"),
+            std::string::npos)
+      << frame["command"];
+}
+
 TEST(LabSession, AFrameIsTheDriversAndGoldens) {
   lab::Session session;
   std::size_t frames = 0;

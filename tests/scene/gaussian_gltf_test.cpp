@@ -2,6 +2,7 @@
 // glTF with KHR_gaussian_splatting: written and read again, quantised and interleaved attributes, nodes, damage.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -225,6 +226,32 @@ TEST(Gltf, DraftsStoredLogarithms) {
   const GaussianCloud again = read(".glb", glb(chunks));
   EXPECT_LT(difference(again, cloud), 1e-6);
   EXPECT_THAT(again.remarks, ElementsAre(HasSubstr("logarithms")));
+}
+
+TEST(Gltf, OpacitiesBesideOneAreRounding) {
+  Chunks chunks = written(make_synthetic_gaussians("cloud:8"));
+  const Json& attributes = chunks.json["meshes"][0]["primitives"][0]["attributes"];
+  const Json& accessor = chunks.json["accessors"][attributes["KHR_gaussian_splatting:OPACITY"].get<std::size_t>()];
+  const Json& view = chunks.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+  const auto at = view.value("byteOffset", std::size_t{0}) + accessor.value("byteOffset", std::size_t{0});
+  const auto set = [&](std::size_t i, float value) {
+    chunks.binary.replace(at + 4 * i, 4, word(std::bit_cast<std::uint32_t>(value)));
+  };
+  set(1, 1.000001F), set(2, -1e-7F), set(3, 2.0F);
+  const GaussianCloud cloud = read(".glb", glb(chunks));
+  ASSERT_EQ(cloud.gaussians.size(), 7U);
+  EXPECT_EQ(cloud.gaussians[1].opacity, 1.0F);
+  EXPECT_EQ(cloud.gaussians[2].opacity, 0.0F);
+  EXPECT_THAT(cloud.remarks, ElementsAre(AllOf(HasSubstr("Gaussian 3"), HasSubstr("opacity is outside 0..1"))));
+}
+
+TEST(Gltf, HarmonicsAboveDegreeThreeAreNamed) {
+  Chunks chunks = written(make_synthetic_gaussians("shells:8"));
+  Json& attributes = chunks.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["KHR_gaussian_splatting:SH_DEGREE_4_COEF_0"] = attributes["POSITION"];
+  const GaussianCloud cloud = read(".glb", glb(chunks));
+  EXPECT_EQ(cloud.degree, 3);
+  EXPECT_THAT(cloud.remarks, ElementsAre("harmonics above degree 3 are not drawn"));
 }
 
 TEST(Gltf, WhatIsDeclaredIsFollowedOrNamed) {

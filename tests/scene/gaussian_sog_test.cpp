@@ -271,6 +271,7 @@ TEST(Sog, DamageIsNamed) {
          meta["means"]["mins"] = {1, 2};
        }),
        "no valid mins"},
+      {changed([](Json& meta) { meta["scales"].erase("codebook"); }), "no valid codebook"},
       {changed([](Json& meta) { meta["means"]["files"] = {"l.webp"}; }), "too few files"},
       {changed([](Json& meta) { meta.erase("sh0"); }), "has no sh0"},
       {changed(

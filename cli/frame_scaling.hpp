@@ -67,6 +67,8 @@ class ScalingRun final : public cmodel::Device {
   void finish() override;
   const cmodel::Counters& counters() const override { return clusters_.front().counters(); }
 
+  /// After finish(): the whole frame on a single device.
+  const cmodel::DeviceCycles& one_device() const { return clusters_.front().devices().front(); }
   /// After finish(): one entry for each requested number of devices, in that order.
   std::vector<FrameScaling> scalings() const;
 

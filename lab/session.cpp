@@ -255,7 +255,7 @@ Json Session::cycles(const Json& json) {
           {"idle", model.idle_cycles()},
           {"end", model.end_cycle()},
           {"account", counted_json(model.account())},
-          {"bytes_in", model.sent_beats() * cmodel::kBeatBytes},
+          {"bytes_in", model.sent().total() * cmodel::kBeatBytes},
           {"bytes_out", model.pixel_beats() * static_cast<std::uint64_t>(config.lanes) * cmodel::kPixelBytes}};
 }
 

@@ -8,10 +8,40 @@
 
 namespace fastsplat::analysis {
 
-struct Cost {
-  double storage_bits = 0.0;     ///< of tables, sheets and picture, as often as the RTL has each
+/// Arithmetic in cells that the RTL is made of.
+struct Arithmetic {
   double adder_bits = 0.0;       ///< full adders
   double multiplier_bits = 0.0;  ///< cells of array multipliers: the product of both widths
+  Arithmetic operator*(double count) const { return {count * adder_bits, count * multiplier_bits}; }
+  Arithmetic operator+(const Arithmetic& other) const {
+    return {adder_bits + other.adder_bits, multiplier_bits + other.multiplier_bits};
+  }
+};
+
+/// What one event uses.
+struct EventArithmetic {
+  Arithmetic splat;       ///< a record
+  Arithmetic window;      ///< P x P pixels of a footprint; lanes apart
+  Arithmetic weight;      ///< a lane of a window
+  Arithmetic product;     ///< its four products
+  Arithmetic sum;         ///< its four sums in a sheet
+  Arithmetic composited;  ///< a pixel
+  Arithmetic output;      ///< a pixel that leaves
+};
+EventArithmetic event_arithmetic(const cmodel::Config& config);
+
+/// The device's memories, each as often as the RTL has it: a table that all lanes read in the same cycle exists once a
+/// lane.
+struct Memories {
+  double rlut_bits = 0.0, radial_bits = 0.0, factor_bits = 0.0;  ///< one table: of an axis, a lane, a composited pixel
+  double sheet_bits = 0.0;                                       ///< both buffers
+  double picture_bits = 0.0;                                     ///< or an X-ray's sums
+};
+Memories memories(const cmodel::Config& config);
+
+struct Cost {
+  double storage_bits = 0.0;  ///< of all memories
+  double adder_bits = 0.0, multiplier_bits = 0.0;
   /// The cost as one number, in full adders: a multiplier's cell counts as one, a bit of memory as a sixth.
   double total() const { return storage_bits / 6.0 + adder_bits + multiplier_bits; }
 };

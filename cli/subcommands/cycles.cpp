@@ -16,6 +16,7 @@
 #include "cli/cycle_timeline.hpp"
 #include "cli/cycle_trace.hpp"
 #include "cli/frame_scaling.hpp"
+#include "cli/frame_traffic.hpp"
 #include "cli/gaussian_flags.hpp"
 #include "cli/names.hpp"
 #include "cli/output.hpp"
@@ -28,7 +29,9 @@
 #include "cmodel/cycles/cycle_model.hpp"
 #include "cmodel/model.hpp"
 #include "driver/files/stream_file.hpp"
+#include "driver/splats/splat_quantiser.hpp"
 #include "driver/tiles/cull_log.hpp"
+#include "driver/tiles/frame_head.hpp"
 #include "driver/tiles/render.hpp"
 #include "driver/tiles/run_device.hpp"
 #include "testbench/device/pattern.hpp"
@@ -57,9 +60,12 @@ struct Counts {
   cmodel::CycleAccount account;
   cmodel::StallCounters stalls;
   cmodel::Counters counters;
-  std::uint64_t idle = 0, end = 0;
+  cmodel::StreamBeats sent;
+  std::uint64_t pixel_beats = 0, idle = 0, end = 0;
 
   void take(const cmodel::CycleModel& model) {
+    sent = model.sent();
+    pixel_beats = model.pixel_beats();
     account = model.account();
     stalls = model.stalls();
     counters = model.counters();
@@ -68,6 +74,8 @@ struct Counts {
   }
   /// Sums over all devices; `end` is the last device's.
   void take(const ScalingRun& run, const FrameScaling& scaling) {
+    sent = run.one_device().sent;
+    pixel_beats = run.one_device().pixel_beats;
     counters = run.counters();
     for (const auto& device : scaling.each) {
       account += device.account;
@@ -93,14 +101,13 @@ struct CyclesResult {
   std::optional<cmodel::CullCounts> culls;  ///< of a device that culls
   std::optional<int> fetch;
   std::vector<driver::CullRow> cull_table;  ///< if requested
+  FrameTraffic traffic;
   double seconds = 0.0;
 };
 
-/// Share of the splats whose blocks had all terminated: the device computes them in vain. Counted by the fast unit with
-/// bands of whole tiles; empty if the plain unit drew any tile.
-std::optional<double> hidden_share(const scene::Scene& scene, const cmodel::Config& config, int threads) {
-  const auto drawn =
-      driver::render(scene, config, {.threads = threads, .band_rows = config.tile_height, .progress = {}});
+/// Share of the splats whose blocks had all terminated: the device computes them in vain. Empty if the plain unit drew
+/// any tile, or if the device culls.
+std::optional<double> hidden_share(const driver::DeviceRender& drawn) {
   if (drawn.units.fast == 0 || drawn.units.plain > 0 || drawn.counters.splats == 0) return std::nullopt;
   return static_cast<double>(drawn.units.hidden_splats) / static_cast<double>(drawn.counters.splats);
 }
@@ -152,7 +159,7 @@ std::string to_text(const CyclesResult& result) {
               ? fmt::format("{:.1f} % of the splats lay entirely on terminated blocks and changed nothing\n",
                             100.0 * *result.hidden_share)
               : "") +
-         (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
+         to_text(result.traffic) + (result.scalings.size() > 1 ? to_table(result.scalings) : "") +
          (result.scalings.empty() ? "" : to_text(result.scalings.back())) +
          (result.cull_table.empty() ? "" : cli::to_text(result.cull_table)) +
          (result.trace.empty() ? "" : result.trace + "\n");
@@ -175,7 +182,7 @@ Json to_json(const Counts& counts, bool culls) {
 }
 
 Json to_json(const CyclesResult& result) {
-  const auto& [account, stalls, counters, idle, end] = result.counts;
+  const auto& [account, stalls, counters, sent, pixel_beats, idle, end] = result.counts;
   Json json{{"verb", "cycles"},
             {"version", program_version()},
             {result.stream.empty() ? "scene" : "stream", result.stream.empty() ? result.scene : result.stream},
@@ -202,6 +209,8 @@ Json to_json(const CyclesResult& result) {
   }
   if (result.fetch) json["fetch"] = *result.fetch;
   if (!result.cull_table.empty()) json["cull_table"] = cli::to_json(result.cull_table);
+  json["traffic"] = traffic_json(result.traffic);
+  json["energy"] = result.traffic.no_energy.empty() ? analysis::to_json(result.traffic.energy) : Json(nullptr);
   if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
   if (!result.scalings.empty()) json["scaling"] = to_json(result.scalings.back());
   if (result.scalings.size() > 1) {
@@ -300,8 +309,10 @@ ExitCode run(const CyclesArguments& arguments) {
                       .timeline = {},
                       .culls = {},
                       .fetch = {},
-                      .cull_table = {}};
+                      .cull_table = {},
+                      .traffic = {}};
   if (config.culls() && arguments.fetch >= 0) result.fetch = arguments.fetch;
+  analysis::Activity activity;
   const auto make = [&](cmodel::StreamScope scope) -> std::unique_ptr<cmodel::Device> {
     if (arguments.scaling.any()) return std::make_unique<ScalingRun>(config, scope, arguments.scaling, options);
     return std::make_unique<cmodel::CycleModel>(config, scope, options);
@@ -325,6 +336,7 @@ ExitCode run(const CyclesArguments& arguments) {
     const auto device = make(cmodel::StreamScope::Whole);
     result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
+    result.traffic.no_energy = "a stream's pixels are not computed here; use its scene";
   } else if (arguments.gaussians.file) {
     const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
@@ -335,11 +347,22 @@ ExitCode run(const CyclesArguments& arguments) {
     frame.emit([&](std::span<const cmodel::Beat> beats) { device->consume(beats); }, bar.callback());
     device->finish();
     take(*device);
+    result.traffic.drawn = frame.report().drawn;
+    activity = {.mode = cmodel::Mode::SampleAdditive,
+                .ellipses = true,
+                .counters = driver::render_gaussians(frame, {.threads = arguments.common.threads}).counters};
   } else {
     const auto scene = build(arguments.scene);
     output.remark(remarks(scene));
     result.scene = summary(scene);
-    if (!config.culls()) result.hidden_share = hidden_share(scene, config, arguments.common.threads);
+    // With bands of whole tiles, so that all hidden splats are found.
+    const auto drawn = driver::render(
+        scene, config, {.threads = arguments.common.threads, .band_rows = config.tile_height, .progress = {}});
+    if (!config.culls()) result.hidden_share = hidden_share(drawn);
+    activity = {.mode = driver::mode_of(scene.description),
+                .ellipses = driver::draws_ellipses(scene, config),
+                .counters = drawn.counters};
+    result.traffic.drawn = drawn.report.voxels - drawn.report.vanished_voxels;
     if (config.culls()) {
       ProgressBar bar("culling", watching(arguments.common));
       const int threads = arguments.common.threads;
@@ -358,6 +381,15 @@ ExitCode run(const CyclesArguments& arguments) {
         {.threads = arguments.common.threads, .progress = bar.callback()}, take);
   }
   if (config.culls()) result.culls = culls.counts;
+  FrameTraffic& traffic = result.traffic;
+  traffic.in = result.counts.sent;
+  traffic.bytes_out = result.counts.pixel_beats * static_cast<std::uint64_t>(config.lanes) * cmodel::kPixelBytes;
+  if (traffic.no_energy.empty()) traffic.no_energy = analysis::no_energy(config, activity.mode);
+  if (traffic.no_energy.empty()) {
+    activity.bytes_in = traffic.bytes_in();
+    activity.bytes_out = traffic.bytes_out;
+    traffic.energy = analysis::energy(config, activity);
+  }
   if (!arguments.trace.empty()) write_text_file(arguments.trace, trace.text());
   if (arguments.timeline) result.timeline = timeline.json();
   output.line(to_text(result));

@@ -126,7 +126,7 @@ std::uint64_t CycleCluster::frame_cycles() const {
 std::uint64_t CycleCluster::beats_in() const {
   if (!fetches_) return link_.beats();
   std::uint64_t beats = 0;
-  for (const DeviceCycles& device : done_) beats += device.sent_beats;
+  for (const DeviceCycles& device : done_) beats += device.sent.total();
   return beats;
 }
 

@@ -77,7 +77,7 @@ std::uint64_t CycleModel::enter(Opcode opcode, bool payload) {
   beat_.taken = taken;
   next_offer_ = taken + 1;
   check_free_ = verdict - stages::kResult;
-  ++sent_;
+  sent_.count(opcode, payload);
   std::uint64_t checked = 0, map = 0;
   if (config_.culls()) {
     const CullPipe::Passage passage = cull_.pass(verdict, ready_, opcode == Opcode::BeginSheet && !payload);

@@ -17,6 +17,7 @@
 #include "cmodel/cycles/cycle_account.hpp"
 #include "cmodel/cycles/ready_pattern.hpp"
 #include "cmodel/cycles/register_slice.hpp"
+#include "cmodel/cycles/stream_beats.hpp"
 #include "cmodel/decode/stream_decode.hpp"
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
@@ -119,7 +120,7 @@ class CycleModel final : public Device {
   /// Cycles after reset in which the device waited for a frame: the wipe, and a late source outside of tiles.
   std::uint64_t idle_cycles() const { return end_ - stalls_.busy; }
   /// Beats that the source sent: all but skipped ones of hidden cull groups.
-  std::uint64_t sent_beats() const { return sent_; }
+  const StreamBeats& sent() const { return sent_; }
   /// Beats of pixels, P pixels each.
   std::uint64_t pixel_beats() const { return pixel_beats_; }
 
@@ -188,7 +189,8 @@ class CycleModel final : public Device {
     std::uint64_t cycle = 0;
   };
   CullSets<Verdict> cull_sets_;
-  std::uint64_t last_verdict_ = 0, sent_ = 0;
+  std::uint64_t last_verdict_ = 0;
+  StreamBeats sent_;
   // Flags of a fetching source. A splat of a cull group came, and nothing after the last group yet (behind_set_). A
   // group with splats is hidden, among those announced together now (hides_) or before (hid_). All splats of the groups
   // are sent (trusts_, M-fetch-4).

@@ -63,7 +63,7 @@ DeviceCycles QueuedDevice::cycles() const {
           .end = model_.end_cycle(),
           .longest_tile = longest_tile_,
           .pixel_beats = model_.pixel_beats(),
-          .sent_beats = model_.sent_beats()};
+          .sent = model_.sent()};
 }
 
 }  // namespace fastsplat::cmodel

@@ -19,7 +19,7 @@ struct DeviceCycles {
   std::uint64_t end = 0;           ///< the first cycle from which it has nothing to do
   std::uint64_t longest_tile = 0;  ///< cycles from begin_tile carried out to the last pixel taken
   std::uint64_t pixel_beats = 0;
-  std::uint64_t sent_beats = 0;  ///< of its tiles and the tables; a fetching source leaves some out
+  StreamBeats sent;  ///< of its tiles and the tables; a fetching source leaves some out
 };
 
 /// Arrivals must come in the order of the beats and never decrease.

@@ -29,7 +29,7 @@ std::vector<CullRow> compare_culling(const scene::Scene& scene, const cmodel::Co
       rows.push_back({.map = cmodel::text_of(device, *cmodel::find_key("cull.map")),
                       .fetch = fetch,
                       .cycles = model.stalls().busy,
-                      .beats = model.sent_beats(),
+                      .beats = model.sent().total(),
                       .account = model.account(),
                       .counters = model.counters(),
                       .culls = run.counts});

@@ -14,7 +14,6 @@
 #include "driver/tables/tables.hpp"
 
 namespace fastsplat::driver {
-namespace {
 
 cmodel::Mode mode_of(const scene::SceneDescription& description) {
   if (description.method == scene::Method::XRay) return cmodel::Mode::Sum;
@@ -24,6 +23,8 @@ cmodel::Mode mode_of(const scene::SceneDescription& description) {
   if (every_sample(description)) return exponential ? cmodel::Mode::SampleExponential : cmodel::Mode::SampleAdditive;
   return exponential ? cmodel::Mode::Exponential : cmodel::Mode::Additive;
 }
+
+namespace {
 
 const cmodel::Config& checked(const scene::Scene& scene, const cmodel::Config& device) {
   scene::check_capability(scene, offers(device));

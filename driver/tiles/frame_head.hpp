@@ -20,6 +20,9 @@ namespace fastsplat::driver {
 /// Whether a frame's samples are composited one by one (modes 4 and 5), not summed in sheets.
 bool every_sample(const scene::SceneDescription& description);
 
+/// The mode of the frame's tiles.
+cmodel::Mode mode_of(const scene::SceneDescription& description);
+
 /// The sheets that the device receives, whichever method makes them; one sheet if every sample is composited. The scene
 /// must have passed scene::check_capability().
 scene::SheetPlan plan_for_device(const scene::Scene& scene);

@@ -57,6 +57,17 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   EXPECT_EQ(sum_of(b["account"]), b["actual"].get<std::uint64_t>());
   // The stream has one more record, end_frame, which comes while the last picture is output (M-account-3).
   EXPECT_EQ(a["account"], b["account"]);
+  // The same for the bytes, and energy only where there are pixels.
+  const auto traffic = [](const std::string& text) { return json::parse(text)["traffic"]; };
+  EXPECT_EQ(sum_of(traffic(from_scene.out)["in"]), traffic(from_scene.out)["bytes_in"].get<std::uint64_t>());
+  EXPECT_EQ(traffic(from_scene.out)["bytes_in"].get<std::uint64_t>() + 32,
+            traffic(from_stream.out)["bytes_in"].get<std::uint64_t>());
+  EXPECT_EQ(traffic(from_scene.out)["bytes_out"], 112 * 90 * 16);  // beats of four pixels
+  EXPECT_GT(traffic(from_scene.out)["records_each"].get<double>(), 1.0);
+  EXPECT_TRUE(json::parse(from_stream.out)["energy"].is_null());
+  const auto energy = json::parse(from_scene.out)["energy"];
+  EXPECT_GT(energy["low_uj"].get<double>(), 0.0);
+  EXPECT_LT(energy["low_uj"].get<double>(), energy["high_uj"].get<double>());
   std::printf("[figure] busy cycles = %llu, sum of the causes %llu\n",
               static_cast<unsigned long long>(a["actual"].get<std::uint64_t>()),
               static_cast<unsigned long long>(sum_of(a["account"])));

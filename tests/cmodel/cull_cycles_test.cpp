@@ -67,9 +67,16 @@ void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
     EXPECT_EQ(cycles.counters().dirty_blocks, model.counters().dirty_blocks);
     EXPECT_EQ(cycles.counters().sheets, model.counters().sheets);
     EXPECT_EQ(cycles.counters().cull_blocks, model.counters().cull_blocks);
-    EXPECT_EQ(cycles.sent_beats(), times.beats.size());
+    EXPECT_EQ(cycles.sent().total(), times.beats.size());
     if (!latency) {
-      EXPECT_EQ(cycles.sent_beats(), beats.size());
+      EXPECT_EQ(cycles.sent().total(), beats.size());
+      const cmodel::StreamBeats& sent = cycles.sent();
+      const cmodel::Counters& counted = cycles.counters();
+      EXPECT_EQ(sent.splats, counted.splats);
+      EXPECT_EQ(sent.hints, counted.cull_blocks);
+      EXPECT_EQ(sent.sheets, 2 * counted.sheets);
+      EXPECT_EQ(sent.tiles, 2 * counted.tiles);
+      EXPECT_EQ(sent.frame, 2U);
     }
     tally.beats += times.beats.size();
     tally.unsent += beats.size() - times.beats.size();

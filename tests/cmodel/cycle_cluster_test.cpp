@@ -270,7 +270,7 @@ TEST(Cluster, DevicesThatFetchCountTheirOwnTiles) {
         for (const std::uint32_t tile : device.tiles) alone.consume(pieces.tiles.at(tile));
         alone.finish();
         compared.same(device, alone);
-        beats += alone.sent_beats();
+        beats += alone.sent().total();
       }
       compared.same(cluster.beats_in(), beats, "beats");
       all += pieces.whole.size() - 1 + static_cast<std::uint64_t>(devices - 1) * pieces.preamble.size();

@@ -203,7 +203,7 @@ TEST(CulledFrames, CycleModelCountsAsTheModel) {
         EXPECT_EQ(counts.dirty_blocks, drawn_counters.dirty_blocks) << name;
         EXPECT_EQ(model->account().total(), model->stalls().busy) << name;
       }
-      EXPECT_LE(fetched.sent_beats(), sent.sent_beats());
+      EXPECT_LE(fetched.sent().total(), sent.sent().total());
       if (name == "opaque") {
         EXPECT_LT(fetched.stalls().busy, sent.stalls().busy);
       }

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "analysis/errors/cost.hpp"
 #include "analysis/errors/synthesised.hpp"
 #include "base/error.hpp"
 #include "base/hash_text.hpp"
@@ -48,6 +49,29 @@ TEST(Area, IsWithin15PercentOfSynthesesThatTheFitDoesNotSee) {
   RecordProperty("worst_percent", std::to_string(worst));
   EXPECT_LE(worst, 15.0);
   EXPECT_GE(compared, 5);
+}
+
+/// Pairs of synthesised configurations, ranked by their LUTs: how many does a figure put in the other order?
+TEST(Area, RanksAsSynthesisDoes) {
+  const auto samples = area_samples();
+  int pairs = 0, by_area = 0, by_cost = 0;
+  for (const AreaSample& a : samples) {
+    for (const AreaSample& b : samples) {
+      if (!(a.cells.lut < b.cells.lut)) continue;
+      ++pairs;
+      const auto swapped = [&](double of_a, double of_b, const char* figure) {
+        if (of_a < of_b) return 0;
+        std::printf("[figure] %s puts %s (%.0f LUT) above %s (%.0f LUT)\n", figure, a.name.c_str(), a.cells.lut,
+                    b.name.c_str(), b.cells.lut);
+        return 1;
+      };
+      by_area += swapped(area(a.config).lut, area(b.config).lut, "area");
+      by_cost += swapped(cost(a.config).total(), cost(b.config).total(), "cost");
+    }
+  }
+  std::printf("[figure] pairs = %d, in the other order by area %d, by cost %d\n", pairs, by_area, by_cost);
+  EXPECT_GE(pairs, 70);
+  EXPECT_EQ(by_area, 0);
 }
 
 TEST(Area, BlockRamsAndDspsAreExact) {

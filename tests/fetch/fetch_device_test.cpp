@@ -111,7 +111,7 @@ TEST(FetchedDevice, TakesTheCycleModelsCycles) {
       EXPECT_EQ(stalls.stall_tile, cycles.stalls().stall_tile & mask);
       EXPECT_EQ(core->counters().windows, cycles.counters().windows & mask);
       busy += cycles.stalls().busy, waited += cycles.account().input;
-      unsent += expected.stream.beats.size() - cycles.sent_beats();
+      unsent += expected.stream.beats.size() - cycles.sent().total();
     }
   }
   std::printf(

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "analysis/errors/cost.hpp"
 #include "driver/config/config_file.hpp"
 #include "tests/paths.hpp"
 
@@ -43,6 +44,25 @@ TEST(Synthesised, IsNothingOfOneThatWasNot) {
   auto config = driver::load_config("tiny");
   config.radial_frac_bits += 1;
   EXPECT_TRUE(synthesised(config).is_null());
+}
+
+/// Yosys counts the bits of memories in the RTL; cost() has them from the configuration alone.
+TEST(Synthesised, GatesHaveTheMemoryOfTheCostModelAndItsOrder) {
+  double before = 0.0, gates_before = 0.0;
+  for (const char* name : {"tiny", "small", "base", "ellipse"}) {
+    const auto config = driver::load_config(name);
+    const Json gates = synthesised(config).at("gates");
+    const Cost estimate = cost(config);
+    EXPECT_EQ(gates.at("memory_bits").get<double>(), estimate.storage_bits) << name;
+    const double arithmetic = estimate.adder_bits + estimate.multiplier_bits;
+    std::printf("[figure] %s: %.0f kGE, %.1f GE for each cell of arithmetic, %.0f bits of memory\n", name,
+                1e-3 * gates.at("ge").get<double>(), gates.at("ge").get<double>() / arithmetic,
+                gates.at("memory_bits").get<double>());
+    EXPECT_GT(gates.at("ge").get<double>(), gates_before) << name;
+    EXPECT_GT(arithmetic, before) << name;
+    gates_before = gates.at("ge").get<double>();
+    before = arithmetic;
+  }
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ std::string proofs_table(const Json& json, const Json& now) {
 }
 
 constexpr const char* kKinds[] = {"lut", "carry", "mux", "ff", "lutram", "bram", "dsp"};
+constexpr const char* kGateKinds[] = {"ge", "ff", "memory_bits"};
+bool is_gates(const Json& design) { return design.at("family") == "gates"; }
 
 std::string cells(const Json& of) {
   std::string out;
@@ -152,14 +154,14 @@ std::string more(const Json& a, const Json& b) {
 }
 
 /// Cells by module, summed over its instances and sizes.
-std::map<std::string, Json> by_module(const Json& design) {
+std::map<std::string, Json> by_module(const Json& design, std::span<const char* const> kinds = kKinds) {
   std::map<std::string, Json> out;
   for (const auto& [name, module] : design.at("modules").items()) {
     // Names of parametrised modules: "$paramod$HASH\\fastsplat_delay", "$paramod\\fastsplat_popcount\\BITS=...".
     const auto from = name.find("fastsplat_");
     Json& sum = out[name.substr(from, name.find('\\', from) - from)];
     if (sum.is_null()) sum = Json::object();
-    for (const char* kind : kKinds)
+    for (const char* kind : kinds)
       sum[kind] = sum.value(kind, std::int64_t{0}) +
                   module.at(kind).get<std::int64_t>() * module.at("instances").get<std::int64_t>();
   }
@@ -206,7 +208,50 @@ bool names_a_key(const Json& design) {
   return is(kPlain) || std::ranges::any_of(kKeys, [&](const auto& key) { return is(key.first); });
 }
 
-std::string synthesis(const Json& designs, const Json& now) {
+/// kGE and memory by module, a column pair for each device.
+std::string gates(const Json& designs, const Json& read) {
+  std::vector<std::pair<const Json*, std::map<std::string, Json>>> devices;
+  std::map<std::string, double> modules;  // by name, the most that a device spends on it
+  std::string made, head = "| module |", rule = "|---|", sums = "| **all** |";
+  for (const Json& design : designs) {
+    if (!is_gates(design)) continue;
+    devices.emplace_back(&design, by_module(design, kGateKinds));
+    for (const auto& [name, cells] : devices.back().second)
+      modules[name] = std::max(modules[name], cells.at("ge").get<double>());
+    const std::string name = design.at("design");
+    made += fmt::format("- {}: {}{}; {:.0f} s\n", name, tools(design), origin(design, read),
+                        design.at("seconds").get<double>());
+    head += fmt::format(" {}, kGE | memory, kbit |", name);
+    rule += "---:|---:|";
+    const Json& total = design.at("total");
+    sums += fmt::format(" **{:.1f}** | {:.1f} |", 1e-3 * total.at("ge").get<double>(),
+                        1e-3 * total.at("memory_bits").get<double>());
+  }
+  if (devices.empty()) return {};
+  std::vector<std::string> order;
+  for (const auto& [name, most] : modules) order.push_back(name);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](const std::string& name) { return modules.at(name); });
+  std::string rows;
+  for (const std::string& module : order) {
+    rows += fmt::format("| {} |", module);
+    for (const auto& [design, cells] : devices) {
+      const auto found = cells.find(module);
+      rows += found == cells.end() ? " | |"
+                                   : fmt::format(" {:.1f} | {:.1f} |", 1e-3 * found->second.at("ge").get<double>(),
+                                                 1e-3 * found->second.at("memory_bits").get<double>());
+    }
+    rows += "\n";
+  }
+  return fmt::format(
+      "### Gates\n\nThousand gate equivalents (four transistors each) of static CMOS gates, all instances of a module "
+      "together, flip-flops included; memories as bits.\n\n{}\n{}\n{}\n{}\n{}\n",
+      made, head, rule, sums, rows);
+}
+
+std::string synthesis(const Json& kept, const Json& now) {
+  Json designs = Json::array();
+  for (const Json& design : kept)
+    if (!is_gates(design)) designs.push_back(design);
   std::string out =
       fmt::format("| design | family |{} tool, day | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|\n", kCells);
   const Json read = read_by_synthesis(now);
@@ -217,6 +262,7 @@ std::string synthesis(const Json& designs, const Json& now) {
   out += "\n";
   for (const Json& design : designs)
     if (design.contains("placement")) out += placement(design);
+  out += gates(kept, read);
   out += keys(designs, "xc7");
   for (const Json& design : designs) {
     if (!design.contains("modules") || names_a_key(design)) continue;

@@ -36,6 +36,16 @@ std::string class_of(const std::string& cell) {
   return {};
 }
 
+/// Transistors of a gate of static CMOS, as Yosys counts them; 0 for other cells.
+int transistors(const std::string& cell) {
+  static const std::map<std::string, int> table{{"$_NOT_", 2},  {"$_NAND_", 4}, {"$_NOR_", 4},   {"$_AOI3_", 6},
+                                                {"$_OAI3_", 6}, {"$_AOI4_", 8}, {"$_OAI4_", 8},  {"$_NMUX_", 10},
+                                                {"$_MUX_", 12}, {"$_XOR_", 12}, {"$_XNOR_", 12}, {"$_DFF_P_", 16}};
+  const auto found = table.find(cell);
+  return found == table.end() ? 0 : found->second;
+}
+constexpr int kNand = 4;  ///< transistors of a gate equivalent
+
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error("cannot read " + path.string());
@@ -75,6 +85,35 @@ void add_cells(const std::map<std::string, Cells>& modules, const std::string& n
     if (const std::string kind = class_of(cell); !kind.empty()) to[kind] += times * count;
     if (is_memory(cell)) add_cells(modules, cell, times * count, to);
   }
+}
+
+/// "Number of memory bits" by module.
+Cells read_memories(const std::filesystem::path& path) {
+  static const std::regex heading(R"(=== (.*) ===)"), entry(R"( +Number of memory bits: +(\d+))");
+  Cells bits;
+  std::string name;
+  std::smatch match;
+  for (const auto& line : lines_of(path)) {
+    if (std::regex_match(line, match, heading))
+      name = match[1];
+    else if (std::regex_match(line, match, entry))
+      bits[name] = std::stoll(match[1]);
+  }
+  return bits;
+}
+
+/// Transistors, flip-flops, and bits of memories, of a module without its submodules but memories.
+void add_gates(const Cells& cells, const Cells& memories, std::int64_t times, Cells& to) {
+  for (const auto& [cell, count] : cells) {
+    to["transistors"] += times * count * transistors(cell);
+    if (cell == "$_DFF_P_") to["ff"] += times * count;
+    if (is_memory(cell)) to["memory_bits"] += times * count * memories.at(cell);
+  }
+}
+
+Json gates_json(const Cells& cells) {
+  const auto of = [&](const char* kind) { return cells.contains(kind) ? cells.at(kind) : std::int64_t{0}; };
+  return {{"ge", of("transistors") / kNand}, {"ff", of("ff")}, {"memory_bits", of("memory_bits")}};
 }
 
 void count_instances(const std::map<std::string, Cells>& modules, const std::string& name, std::int64_t times,
@@ -199,18 +238,27 @@ Json read_synthesis(const std::filesystem::path& work, const std::string& family
   }
   const bool whole = modules.contains("ice40_whole"), flat = whole || modules.contains("ice40_wrap");
   const std::string top = whole ? "ice40_whole" : flat ? "ice40_wrap" : "fastsplat_core";
+  const bool gates = family == "gates";
+  const Cells memories = gates ? read_memories(base + ".memories") : Cells{};
+  const auto add = [&](const std::string& name, std::int64_t times, Cells& to) {
+    if (gates)
+      add_gates(modules.at(name), memories, times, to);
+    else
+      add_cells(modules, name, times, to);
+  };
+  const auto json_of = [&](const Cells& cells) { return gates ? gates_json(cells) : to_json(cells); };
   Cells instances, total;
   count_instances(modules, top, 1, instances);
   for (const auto& [name, times] : instances)
-    if (!is_memory(name)) add_cells(modules, name, times, total);
-  json["total"] = to_json(total);
+    if (!is_memory(name)) add(name, times, total);
+  json["total"] = json_of(total);
   if (!flat) {
     for (const auto& [name, times] : instances) {
       if (is_memory(name)) continue;
       Cells own;
-      add_cells(modules, name, 1, own);
+      add(name, 1, own);
       Json module{{"instances", times}, {"levels", levels.contains(name) ? levels.at(name) : 0}};
-      module.update(to_json(own));
+      module.update(json_of(own));
       json["modules"][name] = module;
     }
   }

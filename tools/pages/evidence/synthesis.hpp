@@ -15,8 +15,9 @@ namespace fastsplat::evidence {
 ///    modules: {NAME: {instances, levels, CELLS}}, seconds,
 ///    placement: {fmax_mhz, used: {RESOURCE: [USED, OF]}, worst_paths: [...], from_pins: [...]}}
 /// worst_paths: the ten latest arrivals between registers; from_pins: the latest from a pin.
-/// CELLS: lut, carry, mux, ff, lutram, bram, dsp, the family's primitives. A module's are those of one instance and its
-/// memories; levels is its longest path in cells, 0 if it has none. seconds is processor time, not to be compared.
+/// CELLS: of family gates ge, ff, memory_bits (gate equivalents of four transistors, without memories); else lut,
+/// carry, mux, ff, lutram, bram, dsp, the family's primitives. A module's are those of one instance and its memories;
+/// levels is its longest path in cells, 0 if it has none. seconds is processor time, not to be compared.
 nlohmann::ordered_json read_synthesis(const std::filesystem::path& work, const std::string& family,
                                       const std::string& config);
 

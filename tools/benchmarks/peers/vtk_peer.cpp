@@ -3,6 +3,7 @@
 // compares pictures: post-classified, unshaded ones, which must be alike, and the timed ones.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "driver/config/config_file.hpp"
 #include "driver/tiles/render.hpp"
@@ -81,6 +83,43 @@ void device_later_frame(benchmark::State& state, const Subject& subject, const s
   const auto draw = [&] { return driver::render(later, device, {.threads = 1, .counters = false}); };
   draw();
   for (auto _ : state) benchmark::DoNotOptimize(draw().frame);
+}
+
+/// A full turn, with one store for our frames.
+const std::vector<scene::Scene>& orbit(const Subject& subject) {
+  constexpr int kFrames = 36;
+  static std::map<std::string, std::vector<scene::Scene>> orbits;
+  auto& scenes = orbits[subject.volume];
+  if (!scenes.empty()) return scenes;
+  const auto store = std::make_shared<scene::SplatStore>(std::size_t{4} << 30);
+  for (int frame = 0; frame < kFrames; ++frame) {
+    scene::SceneDescription description = description_of(subject.volume, kSize);
+    description.camera.azimuth = 360.0 * frame / kFrames;
+    scenes.push_back(scene::build_scene(description, scene(subject).volume));
+    scenes.back().store = store;
+  }
+  return scenes;
+}
+
+void vtk_orbit(benchmark::State& state, const Subject& subject) {
+  VtkRayCaster caster(scene(subject));
+  caster.draw();
+  for (auto _ : state) {
+    for (const scene::Scene& view : orbit(subject)) {
+      caster.look(view);
+      caster.draw();
+    }
+  }
+}
+
+void device_orbit(benchmark::State& state, const Subject& subject, const std::string& config) {
+  const cmodel::Config device = driver::load_config(config);
+  const auto& views = orbit(subject);
+  benchmark::DoNotOptimize(driver::render(views.front(), device, {.threads = 1, .counters = false}).frame);
+  for (auto _ : state) {
+    for (const scene::Scene& view : views)
+      benchmark::DoNotOptimize(driver::render(view, device, {.threads = 1, .counters = false}).frame);
+  }
 }
 
 /// Compares two pictures as a line of the results; throws below either minimum.
@@ -191,20 +230,51 @@ void register_post_classified(const Subject& subject) {
   }
 }
 
-void register_frames(const Subject& subject) {
-  const auto line = [&](const std::string& who, auto draw) {
-    benchmark::RegisterBenchmark((who + "/" + subject.name).c_str(), draw)
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(1)
-        ->MeasureProcessCPUTime();
+template <class Draw>
+void timed(const std::string& who, const Subject& subject, Draw draw) {
+  benchmark::RegisterBenchmark((who + "/" + subject.name).c_str(), draw)
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(1)
+      ->MeasureProcessCPUTime();
+}
+
+/// A turn of the camera in both programs; the pictures' line has the worst frame.
+void register_orbit(const Subject& subject) {
+  const auto compare = [subject](benchmark::State& state) {
+    VtkRayCaster caster(scene(subject));
+    double db = 1e9, overlap = 1.0;
+    for (const scene::Scene& view : orbit(subject)) {
+      caster.look(view);
+      caster.draw();
+      const Image theirs = caster.picture(), ours = device_of(view, "base");
+      db = std::min(db, psnr(theirs, ours));
+      overlap = std::min(overlap, silhouette_overlap(theirs, ours));
+    }
+    for (auto _ : state) {
+    }
+    state.counters["psnr_db"] = db;
+    state.counters["overlap"] = overlap;
+    if (!(db >= 15.0 && overlap >= 0.8)) throw std::runtime_error("frames of the orbit differ: nothing to compare");
   };
-  line("vtk", [subject](benchmark::State& state) { vtk_frame(state, subject); });
-  line("vtk-first", [subject](benchmark::State& state) { vtk_first_frame(state, subject); });
-  line("golden", [subject](benchmark::State& state) { golden_frame(state, subject); });
+  benchmark::RegisterBenchmark((std::string("picture/") + subject.name + "/orbit/vtk/base").c_str(), compare)
+      ->Iterations(1)
+      ->Repetitions(1);
+  timed("orbit-vtk", subject, [subject](benchmark::State& state) { vtk_orbit(state, subject); });
+  for (const std::string config : {"base", "compact"})
+    timed("orbit-" + config, subject,
+          [subject, config](benchmark::State& state) { device_orbit(state, subject, config); });
+}
+
+void register_frames(const Subject& subject) {
+  timed("vtk", subject, [subject](benchmark::State& state) { vtk_frame(state, subject); });
+  timed("vtk-first", subject, [subject](benchmark::State& state) { vtk_first_frame(state, subject); });
+  timed("golden", subject, [subject](benchmark::State& state) { golden_frame(state, subject); });
   for (const std::string config : {"base", "compact"}) {
-    line(config, [subject, config](benchmark::State& state) { device_frame(state, subject, config, false); });
-    line(config + "-later", [subject, config](benchmark::State& state) { device_later_frame(state, subject, config); });
-    line(config + "-counted", [subject, config](benchmark::State& state) { device_frame(state, subject, config, true); });
+    timed(config, subject, [subject, config](benchmark::State& state) { device_frame(state, subject, config, false); });
+    timed(config + "-later", subject,
+          [subject, config](benchmark::State& state) { device_later_frame(state, subject, config); });
+    timed(config + "-counted", subject,
+          [subject, config](benchmark::State& state) { device_frame(state, subject, config, true); });
   }
 }
 
@@ -217,6 +287,7 @@ int main(int count, char** arguments) {
     if (std::filesystem::exists(kHead)) {
       register_pictures({"head512", kHead});
       register_post_classified({"head512", kHead});
+      register_orbit({"head512", kHead});
       register_frames({"head512", kHead});
     }
     register_pictures({"shells256", "shells:256"});

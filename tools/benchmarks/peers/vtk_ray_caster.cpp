@@ -103,8 +103,7 @@ VtkRayCaster::VtkRayCaster(const scene::Scene& scene, const volume::Volume& dens
   Pipeline& p = *pipeline_;
   fill(densities, *p.grid);
   classify(scene, *p.property);
-  place(scene, *p.renderer->GetActiveCamera());
-  aim(scene, *p.light);
+  look(scene);
 
   const auto distance = static_cast<float>(step * scene.volume->kernel_unit());
   p.mapper->SetInputData(p.grid);
@@ -122,14 +121,20 @@ VtkRayCaster::VtkRayCaster(const scene::Scene& scene, const volume::Volume& dens
   p.window->AddRenderer(p.renderer);
   p.renderer->AddVolume(p.volume);
   p.renderer->AddLight(p.light);
-  p.renderer->ResetCameraClippingRange(p.volume->GetBounds());
 }
 
 VtkRayCaster::~VtkRayCaster() = default;
 
+void VtkRayCaster::look(const scene::Scene& scene) {
+  Pipeline& p = *pipeline_;
+  place(scene, *p.renderer->GetActiveCamera());
+  aim(scene, *p.light);
+}
+
 /// The mapper's Render without the texture that carries the picture to a window.
 void VtkRayCaster::draw() {
   Pipeline& p = *pipeline_;
+  p.renderer->ResetCameraClippingRange(p.volume->GetBounds());
   // Matters only if several volumes share a picture.
   double first[3] = {0.0, 0.0, 0.0}, spacing[3] = {1.0, 1.0, 1.0};
   int extent[6] = {0, 0, 0, 0, 0, 0};

@@ -10,8 +10,8 @@
 namespace fastsplat::bench {
 
 /// One thread, density as one component, classified at each sample, trilinear, one sample and ray per voxel and pixel.
-/// All of the mapper's quality settings are fixed, none depends on its timer. No window is opened, and light and camera
-/// do not change between frames, so from the second frame on gradients and tables are reused.
+/// All of the mapper's quality settings are fixed, none depends on its timer. No window is opened. From the second
+/// frame on gradients are reused, and tables unless look() moves the light.
 class VtkRayCaster {
  public:
   /// `scene` must outlive it and be orthographic, with or without roll, of a non-oblique grid.
@@ -21,6 +21,8 @@ class VtkRayCaster {
   VtkRayCaster(const scene::Scene& scene, const volume::Volume& densities, double step);
   ~VtkRayCaster();
 
+  /// Takes camera and light of another scene of the same volume.
+  void look(const scene::Scene& scene);
   void draw();
   /// The last frame: premultiplied, rows downwards.
   Image picture() const;

@@ -89,7 +89,7 @@ std::vector<Lemma> lemmas(const Config& c, const Roundings& r) {
   out.push_back(
       {"product", words(c), all_words(c), at(c, Site::Product, "colour * weight") + " - colour * weight", r.product});
   // Both ends of a segment are words within half an ulp of the function; the mean of two errors, weighted by place and
-  // 1 - place, is no greater than the greater of them. The chord is above the function by at most h^2/24. The start of
+  // 1 - place, is at most the greater of them. The chord is above the function by at most h^2/24. The start of
   // the segment is in both and left out.
   const double ulp = std::ldexp(0.5, -c.opacity_frac_bits), h = std::exp2(c.sheet_int_bits) / c.opacity_segments;
   out.push_back({"factor",
@@ -163,7 +163,7 @@ TEST(Gappa, FindsNoStepFartherOffThanTheBoundSays) {
     const Chain chain(scene, config);
     const Roundings roundings(chain, Mixture{}, Mixture::all_device());
     for (const Lemma& lemma : lemmas(config, roundings)) {
-      // A third of a step is no binary number.
+      // A double cannot hold h^2/24 exactly.
       const Answer answer = ask(lemma, lemma.most * (1.0 + std::ldexp(1.0, -40)));
       std::printf("[figure] %s %s: Gappa %.6g, bound %.6g\n", name.c_str(), lemma.name.c_str(), answer.most,
                   lemma.most);

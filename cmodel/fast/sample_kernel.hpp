@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites every sample of whole footprints with vector instructions (Highway): modes 4 and 5 (N-6-12).
+// Composites with vector instructions (Highway): every sample of whole footprints (modes 4 and 5, N-6-12), and the sums
+// of sheets (modes 0 and 1).
 #pragma once
 
 #include <cstddef>
@@ -36,5 +37,27 @@ struct SampleCounts {
 /// pitch_of(columns), are written unchanged.
 void composite_samples(const SampleTables& tables, bool exponential, std::span<const SplatJob> jobs,
                        std::uint32_t* picture, std::size_t row, SampleCounts& counts);
+
+/// Side by side blocks of `side` x `rows` pixels, and the sums of a sheet below them.
+template <class T>
+struct SumBlocks {
+  std::uint64_t blocks = 0;  ///< a bit for each that is to be composited
+  std::size_t side = 0, rows = 0;
+  const T* sums = nullptr;           ///< of block 0's first pixel, four words each
+  std::size_t sums_row = 0;          ///< pixels
+  std::uint32_t* picture = nullptr;  ///< likewise, as in composite_samples()
+  std::size_t picture_row = 0;
+  std::uint32_t largest = 0;  ///< a larger sum may have been cut
+};
+struct CompositedBlocks {
+  bool sound = true;             ///< false: a sum is above `largest`; the picture is then spoiled
+  std::uint64_t terminated = 0;  ///< of the composited blocks, those all of whose pixels are terminated now
+};
+/// Whether a block of `side` pixels is whole vectors.
+bool composites_sums(std::size_t side);
+CompositedBlocks composite_sums(const SampleTables& tables, bool exponential, const SumBlocks<std::uint16_t>& of,
+                                SampleCounts& counts);
+CompositedBlocks composite_sums(const SampleTables& tables, bool exponential, const SumBlocks<std::uint32_t>& of,
+                                SampleCounts& counts);
 
 }  // namespace fastsplat::cmodel::fast

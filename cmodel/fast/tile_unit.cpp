@@ -74,6 +74,10 @@ void TileUnit<T>::begin_band(const BeginTile& tile, bool first, int ahead) {
     densities_->begin_tile(tile, tables_.frame);
     compositor_.begin_tile(tile.mode, tile.width, tile.height);
   }
+  const int whole = tile.width >> lane_bits_;
+  const bool together = halo_ == 0 && !samples_ && tile.mode != Mode::Sum && tables_.samples &&
+                        tables_.terminations == nullptr && composites_sums(static_cast<std::size_t>(lanes_));
+  whole_blocks_ = together && whole > 0 ? bits(0, whole) : 0;
   bound_ = waiting_ = 0;
   before_ = counters_;
 }
@@ -349,7 +353,10 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
     return;
   }
   for (std::size_t by = 0; by < dirty_.size(); ++by) {
-    for (std::uint64_t left = dirty_[by] | slot.dirty[by]; left != 0 && sound_; left &= left - 1)
+    const std::uint64_t dirty = dirty_[by] | slot.dirty[by];
+    const std::uint64_t together = dirty & ~frozen_[by] & whole_blocks_;
+    if (together != 0) composite_together(together, static_cast<int>(by));
+    for (std::uint64_t left = dirty & ~together; left != 0 && sound_; left &= left - 1)
       composite(std::countr_zero(left), static_cast<int>(by));
     dirty_[by] = slot.dirty[by] = 0;
   }
@@ -368,6 +375,43 @@ void TileUnit<T>::end_sheet(const EndSheet&) {
   slot.excess = most_excess_ = 0;
   for (const Slot& other : slots_) most_excess_ = std::max(most_excess_, other.excess);
   bound_ = 0;
+}
+
+template <class T>
+void TileUnit<T>::composite_together(std::uint64_t blocks, int by) {
+  const int y0 = by << lane_bits_, rows = std::min(tile_.height - y0, lanes_);
+  SampleCounts counts;
+  const CompositedBlocks done =
+      composite_sums(*tables_.samples, tile_.mode == Mode::Exponential,
+                     SumBlocks<T>{.blocks = blocks,
+                                  .side = static_cast<std::size_t>(lanes_),
+                                  .rows = static_cast<std::size_t>(rows),
+                                  .sums = sheet_.words() + sheet_.at(0, y0) * 4,
+                                  .sums_row = sheet_.row(),
+                                  .picture = picture_[static_cast<std::size_t>(y0) * tile_.width].data(),
+                                  .picture_row = static_cast<std::size_t>(tile_.width),
+                                  .largest = largest_whole()},
+                     counts);
+  sound_ = sound_ && done.sound;
+  const auto number = static_cast<std::uint64_t>(std::popcount(blocks));
+  counters_.dirty_blocks += number;
+  counters_.pixels_composited += number * static_cast<std::uint64_t>(lanes_ * rows);
+  counters_.frozen_pixels += counts.frozen;
+  counters_.opacity_saturated += counts.opacity_saturated;
+  counters_.composite_saturated += counts.composite_saturated;
+  for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
+    const int x0 = std::countr_zero(left) << lane_bits_;
+    sheet_.clear(x0, y0, x0 + lanes_, y0 + rows);
+  }
+  freeze(done.terminated, static_cast<std::size_t>(by));
+}
+
+template <class T>
+void TileUnit<T>::freeze(std::uint64_t blocks, std::size_t by) {
+  if (blocks == 0) return;
+  // From here on the blocks cannot change, and colours below tau stay in range for any sums.
+  frozen_[by] |= blocks;
+  any_frozen_ = any_frozen_ || !counts_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
 }
 
 template <class T>
@@ -414,11 +458,7 @@ void TileUnit<T>::composite(int bx, int by) {
     }
   }
   sheet_.clear(x0, y0, x1, y1);
-  if (all_frozen) {
-    // From here on the block cannot change, and colours below tau stay in range for any sums.
-    frozen_[static_cast<std::size_t>(by)] |= bit;
-    any_frozen_ = any_frozen_ || !counts_ || tile_.mode == Mode::Additive || tables_.opacity_holds;
-  }
+  if (all_frozen) freeze(bit, static_cast<std::size_t>(by));
 }
 
 /// The sheet, as DensityStage reads it.

@@ -214,6 +214,10 @@ class TileUnit final : public RecordSink {
   void draw();
   std::uint32_t largest_word() const;
   void composite(int bx, int by);
+  /// Several blocks of a row, none of them terminated, all of them whole.
+  void composite_together(std::uint64_t blocks, int by);
+  /// These blocks of a row are terminated.
+  void freeze(std::uint64_t blocks, std::size_t by);
   struct Splatted;  ///< the sheet as DensityStage reads it
   /// Densities: composites the sheet that waited for this one.
   void end_densities();
@@ -246,6 +250,7 @@ class TileUnit final : public RecordSink {
   Sheet<T> sheet_;
   std::vector<PixelState> picture_;            ///< row by row, plus room for what vectors write after it
   std::vector<std::uint64_t> dirty_, frozen_;  ///< a word per row of blocks
+  std::uint64_t whole_blocks_ = 0;             ///< columns of blocks that composite_together() takes
   std::vector<std::uint16_t> hidden_sums_;     ///< bounds of hidden splats' largest words, a plane per slot
   std::vector<Slot> slots_;                    ///< that of sheet s: s modulo their number
   std::size_t now_ = 0;                        ///< the slot of the sheet begun

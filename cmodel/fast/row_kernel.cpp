@@ -89,22 +89,31 @@ void add_rows(const SplatJob& job, T* sheet, std::size_t row, Lanes& lanes, cons
   }
 }
 
+/// The `count` vectors of eight weights.
+template <class Lanes, class T>
+HWY_INLINE void add_eight(const std::uint16_t* weights, T* out, hn::Vec<typename Lanes::D> colour, Lanes& lanes,
+                          const Spread<typename Lanes::D>& spread, std::size_t count) {
+  const typename Lanes::D d;
+  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T);
+  const auto eight = hn::BitCast(d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights));
+  for (std::size_t v = 0; v < count; ++v) {
+    T* at = out + v * kLanes;
+    hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, spread(eight, v)), d, at);
+  }
+}
+
 template <class Lanes, class T>
 void add_wide(const SplatJob& job, T* sheet, std::size_t row, Lanes& lanes, const Spread<typename Lanes::D>& spread,
               std::size_t vectors) {
-  const typename Lanes::D d;
-  constexpr std::size_t kLanes = HWY_MAX_BYTES / sizeof(T), kEach = Spread<typename Lanes::D>::kVectors;
+  constexpr std::size_t kEach = Spread<typename Lanes::D>::kVectors;
   const auto colour = Lanes::colour(job);
-  const std::size_t pitch = pitch_of(job.columns);
+  const std::size_t pitch = pitch_of(job.columns), whole = vectors / kEach, rest = vectors % kEach;
   for (std::size_t j = 0; j < job.rows; ++j) {
     T* out = sheet + (job.at + j * row) * 4;
     const std::uint16_t* weights = job.weights + j * pitch;
-    for (std::size_t v = 0; v < vectors; ++v) {
-      const auto eight = hn::BitCast(
-          d, hn::LoadDup128(hn::Repartition<std::uint16_t, typename Lanes::D>{}, weights + 8 * (v / kEach)));
-      T* at = out + v * kLanes;
-      hn::StoreU(lanes.sum(hn::LoadU(d, at), colour, spread(eight, v % kEach)), d, at);
-    }
+    for (std::size_t block = 0; block < whole; ++block, weights += 8, out += 8 * 4)
+      add_eight(weights, out, colour, lanes, spread, kEach);
+    if (rest != 0) add_eight(weights, out, colour, lanes, spread, rest);
   }
 }
 

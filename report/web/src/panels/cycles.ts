@@ -211,7 +211,7 @@ export const cycles: Panel = {
   name: "cycles",
   verbs: ["cycles"],
   title: (result) => (result.cull_table ? "Cycles with and without culling" : result.by_devices || result.scaling?.devices > 1 ? "Cycles of several devices" : "Cycles"),
-  about: "Clock cycles that the device takes for one frame, and where they go.",
+  about: "Clock cycles of a frame and where they go.",
   render(root, result, context) {
     const show = figures_of(context.index, result);
     const losses = Object.entries(result.cycles.account as Record<string, number>).filter(([name]) => name !== "ideal");
@@ -231,15 +231,14 @@ export const cycles: Panel = {
       tiles(
         result.scaling?.clock_mhz && [`At ${result.scaling.clock_mhz} MHz`, show(["scaling", "fps"], { digits: 2, unit: "fps" })],
         result.scaling?.clock_mhz && ["Frame", show(["scaling", "milliseconds"], { digits: 3, unit: "ms" })],
-        ["Splats per cycle", show(["splats_per_cycle"], { digits: 3 })],
-        ["Splat array used", show(["utilisation"], { scale: 100, digits: 1, unit: "%" })],
+        ["Splats/cycle", show(["splats_per_cycle"], { digits: 3 })],
+        ["Array used", show(["utilisation"], { scale: 100, digits: 1, unit: "%" })],
         ["Splats", show(["splats"])],
         ["Windows", show(["windows"])],
-        ["Dirty blocks", show(["dirty_blocks"])],
         ["Tiles", show(["tiles"])],
-        ["Sheets", show(["sheets"])],
+        result.energy && ["Energy, µJ", show(["energy", "low_uj"], { digits: 0 }), " to ", show(["energy", "high_uj"], { digits: 0 })],
         typeof result.hidden_share === "number" && ["Hidden splats", show(["hidden_share"], { scale: 100, digits: 1, unit: "%" })],
-        ["Idle", show(["cycles", "idle"]), h("small", {}, " cycles")],
+        ["Idle", show(["cycles", "idle"], { unit: "cycles" })],
       ),
     );
     account(cell(root), result);

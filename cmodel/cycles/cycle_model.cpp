@@ -38,6 +38,7 @@ CycleModel::CycleModel(const Config& config, StreamScope scope, const CycleOptio
     : config_(config),
       options_(options),
       decode_(config, scope),
+      snap_(config),
       sets_(static_cast<std::size_t>(config.rlut_sets)),
       dirty_(config.lanes),
       delay_(stages::splat_delay(config)),
@@ -213,8 +214,7 @@ void CycleModel::load(const LoadTable& table) {
 
 void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {
   const Set& set = sets_[record.set];
-  footprint(at, record.tag, snap(config_, record.x, set.rho).origin, snap(config_, record.y, set.rho).origin,
-            set.extent, set.extent);
+  footprint(at, record.tag, snap_(record.x, set.rho).origin, snap_(record.y, set.rho).origin, set.extent, set.extent);
 }
 
 void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {

@@ -22,6 +22,7 @@
 #include "cmodel/numbers/config.hpp"
 #include "cmodel/numbers/stall_counters.hpp"
 #include "cmodel/splat/dirty_map.hpp"
+#include "cmodel/splat/snap.hpp"
 #include "cmodel/stream/device.hpp"
 
 namespace fastsplat::cmodel {
@@ -173,6 +174,7 @@ class CycleModel final : public Device {
   Config config_;
   CycleOptions options_;
   StreamDecode decode_;
+  Snap snap_;
   Accountant accountant_;
   Counters counters_;
   StallCounters stalls_;

@@ -10,7 +10,6 @@
 #include "cmodel/numbers/window_geometry.hpp"
 #include "cmodel/splat/ellipse_rule.hpp"
 #include "cmodel/splat/ellipse_unit.hpp"
-#include "cmodel/splat/snap.hpp"
 #include "cmodel/stream/stream_advice.hpp"
 
 namespace fastsplat::cmodel {
@@ -41,7 +40,8 @@ StreamDecode::StreamDecode(const Config& config, StreamScope scope)
       config_hash_(config_hash(config)),
       sets_loaded_(static_cast<std::size_t>(config.rlut_sets), false),
       jumps_(scope == StreamScope::Subset && config.culls()),
-      rho_(static_cast<std::size_t>(config.rlut_sets), 0) {}
+      snap_(config),
+      footprints_(static_cast<std::size_t>(config.rlut_sets)) {}
 
 void StreamDecode::refuse(const std::string& what, const std::string& expected, const std::string& got,
                           const char* fix) const {
@@ -251,7 +251,7 @@ const Record* StreamDecode::payload(const Beat& beat) {
   state_ = State::Tables;
   if (table.table == Table::Rlut) {
     sets_loaded_[table.radius.set] = true;
-    rho_[table.radius.set] = table.radius.rho;
+    footprints_[table.radius.set] = {table.radius.rho, window_geometry(config_, table.radius.rho).windows};
   }
   if (table.table == Table::Radial) radial_loaded_ = true;
   if (table.table == Table::Factor) factor_loaded_ = true;
@@ -317,9 +317,8 @@ void StreamDecode::check(const SplatRecord& record) {
     refuse("radius set not loaded", "a loaded radius set", std::to_string(record.set));
   check_splat(record.x, record.y, record.colour, record.tag);
   if (sets_.open() == 0) return;
-  const std::uint32_t rho = rho_[record.set], windows = window_geometry(config_, rho).windows;
-  check_announced(record.tag, snap(config_, record.x, rho).origin, snap(config_, record.y, rho).origin, windows,
-                  windows);
+  const auto [rho, windows] = footprints_[record.set];
+  check_announced(record.tag, snap_(record.x, rho).origin, snap_(record.y, rho).origin, windows, windows);
 }
 
 void StreamDecode::check_splat(std::int32_t x, std::int32_t y, const std::array<std::uint32_t, 4>& colour,

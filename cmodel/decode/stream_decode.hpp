@@ -8,6 +8,7 @@
 #include "cmodel/cull/cull_sets.hpp"
 #include "cmodel/cull/cull_table.hpp"
 #include "cmodel/numbers/config.hpp"
+#include "cmodel/splat/snap.hpp"
 #include "cmodel/stream/crc32.hpp"
 #include "cmodel/stream/records.hpp"
 #include "cmodel/stream/stream_rules.hpp"
@@ -81,7 +82,11 @@ class StreamDecode {
   std::uint32_t next_tag_ = 0;
   bool jumps_;                      ///< splats of hidden cull groups may be missing
   BeginTile in_;                    ///< the open tile
-  std::vector<std::uint32_t> rho_;  ///< of each radius set; used for stream invariants
+  Snap snap_;
+  struct Footprint {
+    std::uint32_t rho = 0, windows = 0;  ///< support radius, windows along a side
+  };
+  std::vector<Footprint> footprints_;  ///< of each radius set; used for stream invariants
   CullSets<CullBlock> sets_;
 };
 

@@ -26,16 +26,20 @@ class Snap {
     return {.origin = static_cast<std::int32_t>((rim >> phase_bits_) + 1),
             .phase = static_cast<std::uint32_t>(rim & ((std::int64_t{1} << phase_bits_) - 1))};
   }
+  /// The same without an observer.
+  SnappedAxis operator()(std::int32_t centre, std::uint32_t rho) const {
+    Nothing nobody;
+    return (*this)(centre, rho, nobody);
+  }
 
  private:
   int phase_bits_;
   NarrowAt<Site::Snap> narrow_;
 };
 
-/// Snaps one centre without an observer.
+/// Snaps one centre.
 inline SnappedAxis snap(const Config& config, std::int32_t centre, std::uint32_t rho) {
-  Nothing nobody;
-  return Snap(config)(centre, rho, nobody);
+  return Snap(config)(centre, rho);
 }
 
 }  // namespace fastsplat::cmodel

@@ -24,7 +24,7 @@ using cmodel::Config, cmodel::Terminations;
 class Tester {
  public:
   Tester(const Config& config, const Terminations& known, cmodel::CullLog& log)
-      : config_(config), known_(known), decode_(config, cmodel::StreamScope::Subset), tests_(config) {
+      : config_(config), known_(known), decode_(config, cmodel::StreamScope::Subset), snap_(config), tests_(config) {
     tests_.log(&log);
     extents_.resize(static_cast<std::size_t>(config.rlut_sets));
   }
@@ -71,8 +71,7 @@ class Tester {
   void take(const cmodel::SplatRecord& splat) {
     if (tests_.dropped(splat.tag)) return;
     const Set& set = extents_[splat.set];
-    tests_.hidden(cmodel::snap(config_, splat.x, set.rho).origin, cmodel::snap(config_, splat.y, set.rho).origin,
-                  set.windows, set.windows);
+    tests_.hidden(snap_(splat.x, set.rho).origin, snap_(splat.y, set.rho).origin, set.windows, set.windows);
   }
   void take(const cmodel::EllipseRecord& splat) {
     if (tests_.dropped(splat.tag)) return;
@@ -100,6 +99,7 @@ class Tester {
   const Config& config_;
   const Terminations& known_;
   cmodel::StreamDecode decode_;
+  cmodel::Snap snap_;
   cmodel::CullTests tests_;
   std::vector<Set> extents_;
   cmodel::BeginTile tile_;

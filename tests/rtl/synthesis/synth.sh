@@ -3,12 +3,11 @@
 # synth.sh FAMILY CONFIG EMIT_PACKAGE SOURCE_DIR WORK_DIR: synthesis of the device by Yosys and, for iCE40, placement by nextpnr.
 # Writes to WORK_DIR the files that fastsplat_evidence reads:
 #   FAMILY-CONFIG.stat    cells by module (`stat`), hierarchy kept
-#   FAMILY-CONFIG.memories  bits of the memories by module (FAMILY gates only)
 #   FAMILY-CONFIG.levels  longest path of each module between registers, memories and its submodules (`ltp`)
 #   FAMILY-CONFIG.tools   versions, one a line, the configuration's hash, and the processor seconds of synthesis
 #   FAMILY-CONFIG.report, .place   placed (FAMILY hx8k only): nextpnr's report and its log
 #   FAMILY-CONFIG.bin     the bitstream of a whole device, if icepack is installed
-# FAMILY: ice40, xc7, ecp5; gates: a library of static CMOS gates, memories left whole; hx8k: flattened, mapped by delay (abc9) and placed. tiny stands for tiny_hx8k.toml in ice40_wrap;
+# FAMILY: ice40, xc7, ecp5; hx8k: flattened, mapped by delay (abc9) and placed. tiny stands for tiny_hx8k.toml in ice40_wrap;
 # other configurations are placed whole in ice40_whole. CONFIG plain, ellipses, samples, densities, cull_block, cull_pixel:
 # configs/faults/westover.toml without these keys, or with that key alone, to show its cost. CONFIG sample_*: WORK_DIR/FAMILY-CONFIG.toml. SEEDS: seeds of the placer (1 to 8).
 set -eu
@@ -21,8 +20,6 @@ case $family in
   ice40) pass="synth_ice40 -noflatten -top $top" ;;
   xc7) pass="synth_xilinx -family xc7 -noiopad -noclkbuf -top $top" ;;
   ecp5) pass="synth_ecp5 -noflatten -top $top" ;;
-  gates)
-    pass="proc; opt_clean; tee -o $base.memories stat; synth -run begin:fine -top $top; memory_map */t:\$mem_v2 *fastsplat_ram_1r1w*/* %d; opt -fast -full; techmap; dfflegalize -cell \$_DFF_P_ x; abc -fast -g cmos; opt_clean" ;;
   hx8k)
     command -v nextpnr-ice40 >/dev/null || { echo "skipped: nextpnr-ice40 is not installed (optional package nextpnr-ice40)"; exit 77; }
     place=1
@@ -62,7 +59,7 @@ done
 modules=$(sed -n 's/^module \([a-z0-9_]*\).*/\1/p' "$base.rtl"/*.sv)
 
 # What ends a path: registers, memories, submodules.
-ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:\$_DFF_P_ t:SB_RAM* t:*fastsplat_ram_1r1w"
+ends="t:FD* t:SRL* t:RAM* t:TRELLIS_FF t:TRELLIS_DPR* t:DP16KD t:SB_DFF* t:SB_RAM* t:*fastsplat_ram_1r1w"
 for module in $modules; do ends="$ends t:$module"; done
 
 yosys -q -l "$base.log" -p "read_verilog -defer -sv -I$source/rtl $base.pkg.sv $base.rtl/*.sv $files; hierarchy -check -top $top; $pass; tee -o $base.stat.new stat; delete $ends; tee -o $base.levels ltp -noff" >/dev/null 2>&1 ||

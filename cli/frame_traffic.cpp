@@ -22,7 +22,7 @@ std::string range(const analysis::Joules& joules) {
 }
 
 std::string energy_text(const FrameTraffic& traffic) {
-  if (!traffic.no_energy.empty()) return "energy: not estimated: " + traffic.no_energy + "\n";
+  if (!traffic.energy_violation.empty()) return "energy: not estimated: " + traffic.energy_violation + "\n";
   const analysis::Joules all = analysis::total(traffic.energy);
   auto parts = traffic.energy;
   std::ranges::stable_sort(parts, std::ranges::greater{}, [](const auto& part) { return part.joules.high; });
@@ -39,7 +39,7 @@ std::uint64_t FrameTraffic::bytes_in() const { return in.total() * cmodel::kBeat
 std::string to_text(const FrameTraffic& traffic) {
   std::string text = fmt::format("stream: {} bytes", grouped(traffic.bytes_in()));
   char sign = ':';
-  traffic.in.for_each([&](const char* name, std::uint64_t beats, const char*) {
+  traffic.in.for_each([&](const char* name, std::uint64_t beats) {
     const double share = 100.0 * ratio(beats, traffic.in.total());
     if (share < 0.05) return;
     text += fmt::format("{} {} {:.1f} %", sign, name, share);
@@ -52,8 +52,7 @@ std::string to_text(const FrameTraffic& traffic) {
 
 nlohmann::ordered_json traffic_json(const FrameTraffic& traffic) {
   nlohmann::ordered_json json{{"bytes_in", traffic.bytes_in()}, {"bytes_out", traffic.bytes_out}};
-  traffic.in.for_each(
-      [&](const char* name, std::uint64_t beats, const char*) { json["in"][name] = beats * cmodel::kBeatBytes; });
+  traffic.in.for_each([&](const char* name, std::uint64_t beats) { json["in"][name] = beats * cmodel::kBeatBytes; });
   if (traffic.drawn) json["records_each"] = ratio(traffic.in.splats, *traffic.drawn);
   return json;
 }

@@ -18,7 +18,7 @@ struct FrameTraffic {
   std::uint64_t bytes_out = 0;         ///< pixels
   std::optional<std::uint64_t> drawn;  ///< voxels or Gaussians whose records these are, if known
   std::vector<analysis::EnergyPart> energy;
-  std::string no_energy;  ///< why there is none
+  std::string energy_violation;  ///< if not empty, `energy` is
 
   std::uint64_t bytes_in() const;
 };

@@ -7,7 +7,7 @@
 namespace fastsplat::analysis {
 namespace {
 
-/// WordBits in bits, docs/errors.md, section 5.
+/// Widths, docs/errors.md, section 5.
 struct WordBits {
   double distance, weight, colour, sheet, factor, unit, shown, rest, position, out_word;
 

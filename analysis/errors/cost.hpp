@@ -21,21 +21,22 @@ struct Arithmetic {
 /// What one event uses.
 struct EventArithmetic {
   Arithmetic splat;       ///< a record
-  Arithmetic window;      ///< P x P pixels of a footprint; lanes apart
-  Arithmetic weight;      ///< a lane of a window
-  Arithmetic product;     ///< its four products
-  Arithmetic sum;         ///< its four sums in a sheet
-  Arithmetic composited;  ///< a pixel
-  Arithmetic output;      ///< a pixel that leaves
+  Arithmetic window;      ///< of P x P pixels, without its lanes
+  Arithmetic weight;      ///< of one lane of a window
+  Arithmetic product;     ///< the lane's four products
+  Arithmetic sum;         ///< the lane's four sums in a sheet
+  Arithmetic composited;  ///< a pixel of a sheet, or a sample
+  Arithmetic output;      ///< a pixel that leaves the device
 };
 EventArithmetic event_arithmetic(const cmodel::Config& config);
 
-/// The device's memories, each as often as the RTL has it: a table that all lanes read in the same cycle exists once a
-/// lane.
+/// The device's memories. A table that all lanes read in the same cycle exists once a lane.
 struct Memories {
-  double rlut_bits = 0.0, radial_bits = 0.0, factor_bits = 0.0;  ///< one table: of an axis, a lane, a composited pixel
-  double sheet_bits = 0.0;                                       ///< both buffers
-  double picture_bits = 0.0;                                     ///< or an X-ray's sums
+  double rlut_bits = 0.0;     ///< of one axis; there are two
+  double radial_bits = 0.0;   ///< of one lane
+  double factor_bits = 0.0;   ///< of one pixel composited at once
+  double sheet_bits = 0.0;    ///< of both buffers
+  double picture_bits = 0.0;  ///< or an X-ray's sums
 };
 Memories memories(const cmodel::Config& config);
 

@@ -210,7 +210,7 @@ Json to_json(const CyclesResult& result) {
   if (result.fetch) json["fetch"] = *result.fetch;
   if (!result.cull_table.empty()) json["cull_table"] = cli::to_json(result.cull_table);
   json["traffic"] = traffic_json(result.traffic);
-  json["energy"] = result.traffic.no_energy.empty() ? analysis::to_json(result.traffic.energy) : Json(nullptr);
+  json["energy"] = result.traffic.energy_violation.empty() ? analysis::to_json(result.traffic.energy) : Json(nullptr);
   if (result.hidden_share) json["hidden_share"] = *result.hidden_share;
   if (!result.scalings.empty()) json["scaling"] = to_json(result.scalings.back());
   if (result.scalings.size() > 1) {
@@ -336,7 +336,7 @@ ExitCode run(const CyclesArguments& arguments) {
     const auto device = make(cmodel::StreamScope::Whole);
     result.header = driver::feed_stream(arguments.stream, *device, {.threads = 1, .progress = bar.callback()});
     take(*device);
-    result.traffic.no_energy = "a stream's pixels are not computed here; use its scene";
+    result.traffic.energy_violation = "a stream's pixels are not computed here; use its scene";
   } else if (arguments.gaussians.file) {
     const auto scene = build(arguments.gaussians, describe_for_device(arguments.gaussians, arguments.scene));
     output.remark(remarks(*scene.cloud));
@@ -384,8 +384,8 @@ ExitCode run(const CyclesArguments& arguments) {
   FrameTraffic& traffic = result.traffic;
   traffic.in = result.counts.sent;
   traffic.bytes_out = result.counts.pixel_beats * static_cast<std::uint64_t>(config.lanes) * cmodel::kPixelBytes;
-  if (traffic.no_energy.empty()) traffic.no_energy = analysis::no_energy(config, activity.mode);
-  if (traffic.no_energy.empty()) {
+  if (traffic.energy_violation.empty()) traffic.energy_violation = analysis::energy_violation(config, activity.mode);
+  if (traffic.energy_violation.empty()) {
     activity.bytes_in = traffic.bytes_in();
     activity.bytes_out = traffic.bytes_out;
     traffic.energy = analysis::energy(config, activity);

@@ -8,36 +8,26 @@
 
 namespace fastsplat::cmodel {
 
-// clang-format off
-#define FASTSPLAT_BEAT_KINDS(X)                                \
-  X(splats, "a record of one beat for each sheet and tile")    \
-  X(hints, "cull_block")                                       \
-  X(sheets, "begin_sheet and end_sheet")                       \
-  X(tiles, "begin_tile and end_tile")                          \
-  X(tables, "load_table and the words behind it")              \
-  X(frame, "begin_frame and end_frame")
-// clang-format on
-
 struct StreamBeats {
-#define X(name, meaning) std::uint64_t name = 0;
-  FASTSPLAT_BEAT_KINDS(X)
-#undef X
+  std::uint64_t splats = 0;  ///< circles and ellipses: one for each sheet and tile
+  std::uint64_t cull_blocks = 0;
+  std::uint64_t sheets = 0;  ///< begin_sheet and end_sheet
+  std::uint64_t tiles = 0;   ///< begin_tile and end_tile
+  std::uint64_t tables = 0;  ///< load_table and the words behind it
+  std::uint64_t frame = 0;   ///< begin_frame and end_frame
 
   /// Counts a beat; `payload`: words of a table.
   void count(Opcode opcode, bool payload) { ++of(payload ? Opcode::LoadTable : opcode); }
-  std::uint64_t total() const {
-    std::uint64_t sum = 0;
-#define X(name, meaning) sum += name;
-    FASTSPLAT_BEAT_KINDS(X)
-#undef X
-    return sum;
-  }
-  /// visit(name, beats, meaning) in the order above.
+  std::uint64_t total() const { return splats + cull_blocks + sheets + tiles + tables + frame; }
+  /// visit(name, beats) in the order above.
   template <class Visit>
   void for_each(Visit visit) const {
-#define X(name, meaning) visit(#name, name, meaning);
-    FASTSPLAT_BEAT_KINDS(X)
-#undef X
+    visit("splats", splats);
+    visit("cull_blocks", cull_blocks);
+    visit("sheets", sheets);
+    visit("tiles", tiles);
+    visit("tables", tables);
+    visit("frame", frame);
   }
 
  private:
@@ -47,7 +37,7 @@ struct StreamBeats {
       case Opcode::Ellipse:
         return splats;
       case Opcode::CullBlock:
-        return hints;
+        return cull_blocks;
       case Opcode::BeginSheet:
       case Opcode::EndSheet:
         return sheets;

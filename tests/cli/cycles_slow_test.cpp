@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -71,6 +72,36 @@ TEST(Cycles, AddUpAndAreTheSameForSceneAndStream) {
   std::printf("[figure] busy cycles = %llu, sum of the causes %llu\n",
               static_cast<unsigned long long>(a["actual"].get<std::uint64_t>()),
               static_cast<unsigned long long>(sum_of(a["account"])));
+}
+
+/// The text's last lines, and the frames that have no energy.
+TEST(Cycles, SayBytesAndEnergy) {
+  const auto lines_of = [](const std::vector<std::string>& words) {
+    const auto run = fastsplat(words);
+    expect_success(run);
+    std::vector<std::string> out;
+    std::istringstream text(run.out);
+    for (std::string line; std::getline(text, line);)
+      if (line.starts_with("stream: ") || line.starts_with("energy: ")) out.push_back(line);
+    EXPECT_EQ(out.size(), 2U) << run.out;
+    return out;
+  };
+  const auto volume = lines_of({"cycles", "--volume", "shells:16", "--size", "40", "--config", "tiny"});
+  EXPECT_TRUE(
+      std::regex_match(volume.at(0), std::regex(R"(stream: [\d,]+ bytes: splats [\d.]+ % \([\d.]+ records each\),)"
+                                                R"(.* tables [\d.]+ %; pixels: 25,600 bytes)")))
+      << volume.at(0);
+  EXPECT_TRUE(
+      std::regex_match(volume.at(1), std::regex(R"(energy: [\d.]+ to [\d.]+ uJ, without .*: \w+ [\d.]+ to .*)")))
+      << volume.at(1);
+  const auto gaussians = lines_of({"cycles", "--gaussians", "shells:300", "--size", "64"});
+  EXPECT_EQ(gaussians.at(1).find("not estimated"), std::string::npos) << gaussians.at(1);
+  const auto culled =
+      lines_of({"cycles", "--volume", "shells:16", "--size", "40", "--config", "tiny", "--set", "cull.map=block"});
+  EXPECT_NE(culled.at(0).find(" cull_blocks "), std::string::npos) << culled.at(0);
+  const auto densities = lines_of({"cycles", "--volume", "shells:16", "--size", "40", "--config", "fine", "--classify",
+                                   "post", "--set", "classify.segment_bits=9"});
+  EXPECT_EQ(densities.at(1), "energy: not estimated: the cost model leaves out classification by pixel");
 }
 
 TEST(Cycles, AreThoseOfVerifyUnderTheSamePatterns) {

@@ -80,7 +80,7 @@ void compare(const cmodel::Config& config, std::span<const cmodel::Beat> beats,
                          opcode == static_cast<int>(cmodel::Opcode::Ellipse);
                 })));
       EXPECT_GE(sent.splats, counted.splats);
-      EXPECT_EQ(sent.hints, counted.cull_blocks);
+      EXPECT_EQ(sent.cull_blocks, counted.cull_blocks);
       EXPECT_EQ(sent.sheets, 2 * counted.sheets);
       EXPECT_EQ(sent.tiles, 2 * counted.tiles);
       EXPECT_EQ(sent.frame, 2U);

@@ -210,13 +210,13 @@ bool names_a_key(const Json& design) {
 
 /// kGE and memory by module, a column pair for each device.
 std::string gates(const Json& designs, const Json& read) {
-  std::vector<std::pair<const Json*, std::map<std::string, Json>>> devices;
+  std::vector<std::map<std::string, Json>> devices;  // by module
   std::map<std::string, double> modules;  // by name, the most that a device spends on it
   std::string made, head = "| module |", rule = "|---|", sums = "| **all** |";
   for (const Json& design : designs) {
     if (!is_gates(design)) continue;
-    devices.emplace_back(&design, by_module(design, kGateKinds));
-    for (const auto& [name, cells] : devices.back().second)
+    devices.push_back(by_module(design, kGateKinds));
+    for (const auto& [name, cells] : devices.back())
       modules[name] = std::max(modules[name], cells.at("ge").get<double>());
     const std::string name = design.at("design");
     made += fmt::format("- {}: {}{}; {:.0f} s\n", name, tools(design), origin(design, read),
@@ -234,7 +234,7 @@ std::string gates(const Json& designs, const Json& read) {
   std::string rows;
   for (const std::string& module : order) {
     rows += fmt::format("| {} |", module);
-    for (const auto& [design, cells] : devices) {
+    for (const auto& cells : devices) {
       const auto found = cells.find(module);
       rows += found == cells.end() ? " | |"
                                    : fmt::format(" {:.1f} | {:.1f} |", 1e-3 * found->second.at("ge").get<double>(),

@@ -26,9 +26,8 @@ struct Joules {
 
 // Picojoules by M. Horowitz, "Computing's energy problem", ISSCC 2014 (45 nm, 0.9 V), and N. P. Jouppi et al., "Ten
 // lessons from three generations shaped Google's TPUv4i", ISCA 2021 (7 nm).
-/// Of a full adder or a multiplier's cell: sums of 8 bits take 0.007 pJ (7 nm) and 0.03 (45 nm), of 32 bits 0.03 and
-/// 0.1; products of 8 bits 0.07 and 0.2, of 32 bits 1.48 and 3.1, by their 64 and 1024 cells: the least and the
-/// greatest.
+/// Of a full adder or a multiplier's cell: the least and the greatest by cell of 8 and 32 bits in 7 and 45 nm. Sums take
+/// 0.007 to 0.1 pJ. Products take 0.07 to 3.1 pJ and have 64 or 1024 cells.
 inline constexpr Joules kCellEnergy{0.007e-12 / 8, 0.03e-12 / 8};
 /// Of a bit of DRAM, from accesses of 64 bits: HBM2 250 pJ, DDR3 2600.
 inline constexpr Joules kDramEnergy{250e-12 / 64, 2600e-12 / 64};

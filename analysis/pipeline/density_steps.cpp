@@ -94,7 +94,7 @@ void DensitySteps::read_light(std::span<const std::uint32_t> table) {
 }
 
 void DensitySteps::read_sheets(std::span<const std::uint32_t> table, const scene::SlabGrid& slabs) {
-  const double floor = scene_.shading.gradient_floor, along = 1.0 / (2.0 * slabs.width);
+  const double floor = driver::gradient_floor(scene_), along = 1.0 / (2.0 * slabs.width);
   for (int s = 0; s < slabs.count; ++s) {
     const double across = geometry_.pixels_per_unit(s) / 2.0, most = std::max(across, along);
     real_.push_back({across / most, along / most, floor > 0.0 ? most / floor : 0.0});
@@ -102,6 +102,16 @@ void DensitySteps::read_sheets(std::span<const std::uint32_t> table, const scene
     words_.push_back({value_of(scales & 0xFFFFU, words::kScale), value_of(scales >> 16, words::kScale),
                       std::ldexp(static_cast<double>(both[1]), -words::kFloor)});
   }
+}
+
+// In units of 2^-24, a float's rounding: components of a gradient 1, its length 4. A share of shading has 2 (4 + 2) =
+// 12, as lengths are up to twice the floor. A normal has 6, a cosine 10; the matt part has the cosine's times diffuse and
+// 3 more. A power of the cosine has 10 shininess + 2. Mixing values that differ by at most 1.3 adds 6. Densities of both
+// differ by a double's last bits, which moves a float of the material by one at most.
+double DensitySteps::golden_error() const {
+  const scene::Shading& shading = scene_.shading;
+  return std::ldexp(
+      12.0 * 1.3 + 10.0 * shading.diffuse + 3.0 + shading.specular * (10.0 * shading.shininess + 2.0) + 6.0 + 2.0, -24);
 }
 
 double DensitySteps::Lines::at(double position, const RealNarrowing& fall, std::size_t channel) const {
@@ -171,7 +181,7 @@ double DensitySteps::facing(const Vector& slope, const Normal& normal, const Vec
 double DensitySteps::blend(double length, int sheet, const Mixture& mixture) const {
   const auto s = static_cast<std::size_t>(sheet);
   if (mixture.device(Step::Blend)) return share_(length * words_[s].per_floor - 1.0);
-  if (!(scene_.shading.gradient_floor > 0.0)) return 1.0;
+  if (real_[s].per_floor == 0.0) return 1.0;
   const RoundToFloat& narrow = mixture.rounding(Step::Blend);
   return std::clamp(narrow(narrow(length * narrow(real_[s].per_floor)) - 1.0), 0.0, 1.0);
 }

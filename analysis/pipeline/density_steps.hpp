@@ -45,6 +45,8 @@ class DensitySteps {
   void golden_row(const golden::SheetWindow& window, int y, int begin, std::span<golden::Sums> pixels) const {
     classified_.row(window, y, begin, pixels);
   }
+  /// The most that golden's floats are off the real steps, in a colour's sum over its optical depth.
+  double golden_error() const;
   /// A density in golden's units as a fraction of the range.
   double part_of_range(double golden_sum) const { return golden_sum * per_golden_; }
 

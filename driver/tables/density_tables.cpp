@@ -102,9 +102,7 @@ cmodel::LoadTable sheets_table(const scene::Scene& scene, const scene::SlabGrid&
   const double unit = scene.volume->kernel_unit();
   const cmodel::Format scale = cmodel::unit_format(classify::kScale);
   constexpr std::int64_t kMost = 0xFFFFFFFF;
-  const double range = static_cast<double>(scene.volume->max) - scene.volume->min;
-  const double part = range > 0.0 ? scene::spread(*scene.volume) / range : 1.0;  // relative to the whole range
-  const double floor = scene.shading.gradient_floor * part;
+  const double floor = gradient_floor(scene);
   for (int s = 0; s < slabs.count; ++s) {
     const double depth = (slabs.first + (s + 0.5) * slabs.width) * unit;
     const double pixels = scene.camera.project(scene.camera.direction() * depth).scale * unit;
@@ -133,6 +131,11 @@ void check_densities(const scene::Scene& scene) {
        .expected = "opacity 0 at the smallest value",
        .got = {},
        .fix = "use --engine golden, or a transfer function that starts with opacity 0"});
+}
+
+double gradient_floor(const scene::Scene& scene) {
+  const double range = static_cast<double>(scene.volume->max) - scene.volume->min;
+  return scene.shading.gradient_floor * (range > 0.0 ? scene::spread(*scene.volume) / range : 1.0);
 }
 
 std::vector<cmodel::LoadTable> density_tables(const cmodel::Config& config, const scene::Scene& scene,

@@ -19,6 +19,9 @@ bool holds_densities(const scene::SceneDescription& description);
 /// volume ends.
 void check_densities(const scene::Scene& scene);
 
+/// The gradient below which nothing is shaded, as a part of the volume's range in a kernel unit; 0: none.
+double gradient_floor(const scene::Scene& scene);
+
 /// CLASSIFY, ROOT, GLINT, LIGHTING and SHEETS, in this order.
 std::vector<cmodel::LoadTable> density_tables(const cmodel::Config& config, const scene::Scene& scene,
                                               const scene::SlabGrid& slabs);

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "analysis/errors/bound_band.hpp"
+#include "analysis/errors/bound_densities.hpp"
 #include "base/parallel/parallel.hpp"
 #include "driver/tiles/compile.hpp"
-#include "scene/capability.hpp"
 
 namespace fastsplat::analysis {
 namespace {
@@ -34,8 +34,9 @@ const char* to_string(Known known) {
 
 const char* to_string(Term term) {
   constexpr const char* kNames[kTermCount] = {
-      "known", "place",  "radius", "distance+index", "weight", "emission", "depth+phi",     "share",       "product",
-      "sheet", "factor", "slab",   "composite",      "freeze", "pixel",    "transmittance", "second order"};
+      "known",     "place",     "radius",  "distance+index", "weight",         "emission",
+      "depth+phi", "share",     "product", "sheet",          "classification", "factor",
+      "slab",      "composite", "freeze",  "pixel",          "transmittance",  "second order"};
   return kNames[static_cast<std::size_t>(term)];
 }
 
@@ -58,18 +59,8 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known
   return bound(chain, real, known_steps(known), stages::Mixture::all_device(), threads);
 }
 
-void check_bounded(const stages::Chain& chain) {
-  // Densities have neighbours, which the proof does not have.
-  scene::Offers offers = driver::offers(chain.config());
-  offers.engine = "error bound";
-  offers.features &= static_cast<unsigned>(scene::Feature::Footprints);
-  offers.densities_fix = offers.details_fix = offers.patterns_fix = nullptr;
-  if (chain.gaussians() == nullptr) scene::check_capability(chain.scene(), offers);
-}
-
 Bound bound(const stages::Chain& chain, const stages::Picture& real, const stages::Mixture& mixture,
             const stages::Mixture& device, int threads) {
-  check_bounded(chain);
   const scene::Scene& scene = chain.scene();
   const Roundings roundings(chain, mixture, device);
   const KnownSplats splats(chain, mixture, roundings, threads);
@@ -88,11 +79,13 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
     touched += static_cast<double>(inside(box.x0, box.x1, width)) * inside(box.y0, box.y1, height);
   }
   const bool samples = driver::every_sample(scene.description);
+  const bool densities = chain.holds_densities();
   const int sheets = samples ? 1 : chain.steps().sheets();
   const driver::TileGrid bands = stages::band_grid(
       chain.config(), width, height, rows_of_band(samples ? touched / height : static_cast<double>(sheets) * width));
   const stages::BandBins bins(
-      bands, sheets, count, threads, [&](std::size_t i) { return extents[i]; },
+      bands, sheets, count, threads,
+      [&](std::size_t i) { return densities ? driver::widened(extents[i], DensityBoundBand::kHalo) : extents[i]; },
       [&](std::size_t i) { return first[i]; });
 
   Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};
@@ -100,11 +93,17 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
   parallel_for(bins.work(), threads, [&](std::size_t number) {
     const int band = static_cast<int>(number);
     const golden::Rows rows{bands.y(band), bands.y(band) + bands.height(band)};
-    BoundBand sweep(chain, mixture, roundings, splats, rows, width);
-    sweep.run(bins, band);
-    Sums* to = &out.greatest.pixels[static_cast<std::size_t>(rows.first) * width];
-    for (const PixelBound& pixel : sweep.pixels()) *to++ = pixel.greatest;
-    terms[number] = sweep.terms();
+    const auto take = [&](auto sweep) {
+      sweep.run(bins, band);
+      Sums* to = &out.greatest.pixels[static_cast<std::size_t>(rows.first) * width];
+      for (const PixelBound& pixel : sweep.pixels()) *to++ = pixel.greatest;
+      terms[number] = sweep.terms();
+    };
+    if (densities) {
+      take(DensityBoundBand(chain, mixture, device, roundings, splats, rows, width));
+    } else {
+      take(BoundBand(chain, mixture, roundings, splats, rows, width));
+    }
   });
 
   // Adds the known part, saturation of an X-ray's sums or of composited colours, and rounding and saturation of output
@@ -114,6 +113,8 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
   for (const Terms& band : terms) {
     for (std::size_t t = 0; t < kTermCount; ++t) out.mean[t] += band[t] / values;
   }
+  // Golden's own pictures are floats behind the gradient.
+  const double slack = kSlack + (densities && mixture == stages::Mixture{} ? chain.densities().golden_error() : 0.0);
   const double largest =
       scene.description.method == scene::Method::XRay ? roundings.largest_sum : roundings.largest_light;
   for (std::size_t i = 0; i < real.pixels.size(); ++i) {
@@ -122,7 +123,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
       const double exact = std::abs(there.pixels[i][c] - real.pixels[i][c]);
       most += std::max(0.0, there.pixels[i][c] + most - largest);
       most += roundings.pixel + std::max(0.0, there.pixels[i][c] + most + roundings.pixel - roundings.largest_pixel);
-      most += exact + kSlack;
+      most += exact + slack;
       // An output word lies between 0 and the largest one.
       const double wanted = real.pixels[i][c];
       most = std::min(most, std::max(wanted, roundings.largest_pixel - wanted) + kSlack);

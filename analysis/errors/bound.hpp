@@ -35,6 +35,7 @@ enum class Term : std::uint8_t {
   Share,
   Product,
   Sheet,
+  Classification,  ///< of densities: transfer to colour
   Factor,
   Slab,
   Composite,
@@ -43,7 +44,7 @@ enum class Term : std::uint8_t {
   Transmittance,  ///< error of the device's transmittance
   SecondOrder,
 };
-inline constexpr std::size_t kTermCount = 17;
+inline constexpr std::size_t kTermCount = 18;
 const char* to_string(Term term);
 
 struct Bound {
@@ -51,9 +52,6 @@ struct Bound {
   std::array<double, kTermCount> mean{};  ///< of all values, by term; they add up to about the mean of `greatest`
   Term dominant() const;
 };
-
-/// Throws UserError (Usage) for frames without a proof: densities, patterns and textured splats.
-void check_bounded(const stages::Chain& chain);
 
 /// `threads` (0: all cores) never change the result.
 Bound bound(const stages::Chain& chain, const stages::Picture& real, Known known, int threads = 0);

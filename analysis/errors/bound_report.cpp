@@ -37,7 +37,6 @@ bool BoundReport::holds() const {
 }
 
 BoundReport bounds(const stages::Chain& chain, int threads, const Progress& progress) {
-  check_bounded(chain);
   BoundReport out{chain(stages::Mixture{}, threads), chain(stages::Mixture::all_device(), threads), {}};
   for (const Known known : kLevels) {
     // The effect of an unknown position on a circle's weight is derived for the RLUT only.

@@ -7,6 +7,9 @@
 namespace fastsplat::analysis {
 namespace {
 
+/// Four roundings of floats, relative.
+constexpr double kFloats = 0x1p-22;
+
 stages::Growth growth_of(const stages::StagedShape* shape) {
   return shape != nullptr ? shape->growth : stages::Growth{};
 }
@@ -48,7 +51,9 @@ const Sliced& SliceBound::operator()(const stages::StagedSplat& splat, const sta
   for (std::size_t c = 0; c < 4; ++c) {
     // A rounded word is off by no more than the value itself.
     const double word = r_.carries ? r_.emission : std::min(r_.emission, splat.value[c] * ratio);
-    s.whole_error[c] = word / ratio + std::max(0.0, splat.value[c] - r_.largest_whole / ratio);
+    // Of densities the driver quantises floats.
+    const double narrow = r_.emission > 0.0 && chain_.holds_densities() ? kFloats * splat.value[c] : 0.0;
+    s.whole_error[c] = word / ratio + narrow + std::max(0.0, splat.value[c] - r_.largest_whole / ratio);
   }
   const bool sliced = chain_.gaussians() == nullptr && chain_.steps().sliced();
   if (!sliced || r_.shares_known) {  // whole splats, or shares that are known

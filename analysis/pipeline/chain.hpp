@@ -42,7 +42,8 @@ class Chain {
     return floats ? float_sets(std::move(sets)) : sets;
   }
   bool holds_densities() const { return densities_.has_value(); }
-  const SplatSteps& steps() const { return *steps_; }  ///< of a volume
+  const DensitySteps& densities() const { return *densities_; }  ///< of sheets that hold densities
+  const SplatSteps& steps() const { return *steps_; }            ///< of a volume
   const SplatList& list() const { return list_; }      ///< of a volume
   /// Null for a volume.
   const GaussianSteps* gaussians() const { return gaussians_ ? &*gaussians_ : nullptr; }

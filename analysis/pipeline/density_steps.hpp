@@ -51,6 +51,7 @@ class DensitySteps {
   double part_of_range(double golden_sum) const { return golden_sum * per_golden_; }
 
  private:
+  friend class DensityRanges;
   using Vector = std::array<double, 3>;  ///< right, down, ahead
 
   /// A table of linear segments: its words, as values.

@@ -124,10 +124,11 @@ TEST(ErrorsBound, OfOtherKindsOfIndexNeedsTheirGeometry) {
 }
 
 TEST(ErrorsBound, HoldsForEverySampleEllipsesAndGaussians) {
-  for (const Words& words : {with({"--method", "westover", "--set", "composite.every_sample=1"}, kSmall),
-                             with({"--config", "ellipse", "--antialias", "on", "--zoom", "0.3"}, kSmall),
-                             Words{"--gaussians", "shells:60", "--size", "24"},
-                             with({"--set", "colour.int_bits=1", "--set", "colour.frac_bits=15"}, kSmall)}) {
+  for (const Words& words :
+       {with({"--method", "westover", "--set", "composite.every_sample=1"}, kSmall),
+        with({"--config", "ellipse", "--antialias", "on", "--zoom", "0.3"}, kSmall),
+        Words{"--gaussians", "shells:60", "--size", "24"},
+        with({"--set", "colour.int_bits=1", "--set", "colour.frac_bits=15"}, kSmall), with(kDensities, kClassifies)}) {
     const auto result = fastsplat(with({"errors", "bound", "--json", "-", "--quiet"}, words));
     expect_success(result);
     const Json json = Json::parse(result.out);
@@ -147,7 +148,9 @@ TEST(Errors, BadInputIsOneLine) {
   refused(with({"errors", "--method", "westover"}, kSmall), 2, "composite.every_sample");
   refused(with({"errors", "bound", "--method", "westover"}, kSmall), 2, "composite.every_sample");
   refused(with({"errors"}, kDensities), 2, "classify.segment_bits");
-  refused(with({"errors", "bound"}, with(kDensities, kClassifies)), 2, "error bound");
+  refused(
+      with({"errors", "bound", "--texture", "marble", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)),
+      2, "error attribution");
   refused(with({"errors", "--texture", "marble", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)), 2,
           "error attribution");
   refused(with({"errors", "--bump", "noise", "--set", "pattern.node_bits=4"}, with(kDensities, kClassifies)), 2,

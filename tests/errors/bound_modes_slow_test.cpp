@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proved worst case where every sample is composited, of ellipses, of 3-D Gaussians and of colours above 1.
+// The proved worst case where every sample is composited, of ellipses, of 3-D Gaussians, of colours above 1 and of
+// densities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -260,8 +261,8 @@ scene::SceneDescription isolating(scene::SceneDescription scene) {
 
 /// Bounds of each of them, in frames of `frame`(random, visit), which calls visit(chain).
 template <class Frame>
-void each_alone(std::uint64_t seed, const char* what, Frame frame) {
-  for (const auto& steps : alone()) {
+void each_alone(std::uint64_t seed, const char* what, const std::vector<std::vector<Step>>& all, Frame frame) {
+  for (const auto& steps : all) {
     test::Random random(test::seed_or(seed));
     BoundTotals totals;
     for (int i = 0; i < 40; ++i) {
@@ -277,7 +278,7 @@ void each_alone(std::uint64_t seed, const char* what, Frame frame) {
 }
 
 TEST(BoundOfEllipses, HoldsForEachStepAlone) {
-  each_alone(3210, "ellipses", [](test::Random& random, auto visit) {
+  each_alone(3210, "ellipses", alone(), [](test::Random& random, auto visit) {
     const cmodel::Config config = isolating(test::random_ellipse_config(random));
     const scene::Scene scene = scene::build_scene(isolating(shaped(stages::test::random_scene(random), random)));
     visit(Chain(scene, config));
@@ -393,7 +394,7 @@ TEST(BoundOfBrightColours, HoldsWhereAddedOpacitiesEndAtOne) {
 }
 
 TEST(BoundOfEverySample, HoldsForEachStepAlone) {
-  each_alone(3211, "every sample", [](test::Random& random, auto visit) {
+  each_alone(3211, "every sample", alone(), [](test::Random& random, auto visit) {
     const cmodel::Config config = isolating(sampling(test::random_config(random)));
     const scene::Scene scene = scene::build_scene(isolating(sampled(stages::test::random_scene(random))));
     visit(Chain(scene, config));
@@ -401,9 +402,58 @@ TEST(BoundOfEverySample, HoldsForEachStepAlone) {
 }
 
 TEST(BoundOfGaussians, HoldsForEachStepAlone) {
-  each_alone(3212, "3-D Gaussians", [](test::Random& random, auto visit) {
+  each_alone(3212, "3-D Gaussians", alone(), [](test::Random& random, auto visit) {
     const cmodel::Config config = isolating(sampling(test::random_ellipse_config(random)));
     const scene::GaussianScene scene = random_gaussians(random, 1.0F);
+    visit(Chain(scene, config));
+  });
+}
+
+TEST(BoundOfDensities, HoldsAtRandom) {
+  std::size_t ellipses = 0;
+  at_random(3220, "densities", [&](test::Random& random, BoundTotals& totals) {
+    const bool shapes = random.once_in(2);
+    cmodel::Config config = shapes ? test::random_ellipse_config(random) : test::random_density_config(random);
+    if (shapes) config.classify_segment_bits = static_cast<int>(random.between(4, 9));
+    auto description = stages::test::random_density_scene(random);
+    if (shapes) description = shaped(description, random);
+    const scene::Scene scene = scene::build_scene(description);
+    const Chain chain(scene, config);
+    hold(chain, totals);
+    ellipses += chain.shaped() ? 1 : 0;
+  });
+  std::printf("[figure] frames with shapes: %zu (limit >= 10)\n", ellipses);
+  EXPECT_GE(ellipses, 10u);
+}
+
+TEST(BoundOfDensities, HoldsOfNamedConfigurations) {
+  BoundTotals totals;
+  for (const std::string& name : test::config_names()) {
+    for (const auto& description : stages::test::small_density_scenes()) {
+      const scene::Scene scene = scene::build_scene(description);
+      cmodel::Config config = test::named_config(name);
+      config.classify_segment_bits = 8;
+      if (!cmodel::first_violation(config)) hold(Chain(scene, config), totals);
+    }
+  }
+  totals.print("densities, named configurations");
+  EXPECT_GT(totals.worst, 0.5);
+}
+
+TEST(BoundOfDensities, HoldsForEachStepAlone) {
+  std::vector<std::vector<Step>> of_densities;
+  for (const Step step : stages::all_steps()) {
+    if (stages::of_densities(step)) of_densities.push_back({step});
+  }
+  of_densities.push_back({Step::Slope, Step::Normal, Step::Facing});
+  each_alone(3221, "densities", of_densities, [](test::Random& random, auto visit) {
+    const cmodel::Config config = isolating(test::random_density_config(random));
+    const scene::Scene scene = scene::build_scene(isolating(stages::test::random_density_scene(random)));
+    visit(Chain(scene, config));
+  });
+  each_alone(3222, "densities", alone(), [](test::Random& random, auto visit) {
+    const cmodel::Config config = isolating(test::random_density_config(random));
+    const scene::Scene scene = scene::build_scene(isolating(stages::test::random_density_scene(random)));
     visit(Chain(scene, config));
   });
 }

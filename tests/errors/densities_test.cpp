@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Attribution of frames whose sheets are densities: parts that add up, steps that all occur, the fix of one, and
-// refusals.
+// Attribution of frames whose sheets are densities: parts that add up, steps that all occur, and the fix of one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +9,6 @@
 #include "analysis/error_values.hpp"
 #include "analysis/errors/attribution.hpp"
 #include "analysis/errors/attribution_report.hpp"
-#include "analysis/errors/bound_report.hpp"
-#include "base/error.hpp"
 #include "tests/cmodel/configs_helper.hpp"
 #include "tests/pipeline/mixtures_helper.hpp"
 
@@ -113,18 +110,6 @@ TEST(DensityErrors, SegmentsOfTheTransferFunctionMendIt) {
   EXPECT_EQ(tried->step, "transfer");
   EXPECT_EQ(tried->suggestion.changes, "classify.segment_bits 3 -> 5");
   EXPECT_LT(tried->error.rms, 0.5 * a.total.rms);
-}
-
-TEST(DensityErrors, NoBoundIsProvedOfThem) {
-  const scene::Scene scene = scene::build_scene(stages::test::small_density_scenes().front());
-  const cmodel::Config config = with_densities("base");
-  const Chain chain(scene, config);
-  try {
-    bounds(chain, 1);
-    FAIL() << "not refused";
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("error bound"), std::string::npos) << error.what();
-  }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 // (M-cull-2).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <stdexcept>
 #include <vector>
 
 namespace fastsplat::cmodel {
@@ -34,15 +36,40 @@ struct CullCounts {
 /// tests.
 class CullAnswers {
  public:
-  void add(bool hidden) { bits_.push_back(hidden); }
-  bool operator[](std::size_t at) const { return bits_.at(at); }
-  std::size_t size() const { return bits_.size(); }
+  void add(bool hidden) { add(hidden, 1); }
+  /// `count` equal answers.
+  void add(bool hidden, std::size_t count) {
+    words_.resize((size_ + count + 63) / 64);
+    for (const std::size_t end = size_ + count; hidden && size_ < end; ++size_)
+      words_[size_ / 64] |= std::uint64_t{1} << size_ % 64;
+    if (!hidden) size_ += count;
+  }
+  bool operator[](std::size_t at) const {
+    check(at, 1);
+    return (words_[at / 64] >> at % 64 & 1) != 0;
+  }
+  /// Whether one of `count` answers is that something is hidden.
+  bool any(std::size_t at, std::size_t count) const {
+    check(at, count);
+    for (const std::size_t end = at + count; at < end;) {
+      const std::size_t here = std::min(64 - at % 64, end - at);
+      if ((words_[at / 64] >> at % 64 & ~std::uint64_t{0} >> (64 - here)) != 0) return true;
+      at += here;
+    }
+    return false;
+  }
+  std::size_t size() const { return size_; }
   void add_sheet(int row) { rows_.push_back(row); }
   int first_row(std::size_t sheet) const { return rows_.at(sheet); }
   bool operator==(const CullAnswers&) const = default;
 
  private:
-  std::vector<bool> bits_;
+  void check(std::size_t at, std::size_t count) const {
+    if (count > size_ || at > size_ - count) throw std::out_of_range("cull answers are missing");
+  }
+
+  std::vector<std::uint64_t> words_;  ///< the first answer lowest
+  std::size_t size_ = 0;
   std::vector<int> rows_;  ///< by sheet
 };
 

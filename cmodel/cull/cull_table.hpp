@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace fastsplat::cmodel {
@@ -60,12 +61,14 @@ class CullTable {
   bool hidden(const PixelBox& box) const {
     const PixelBox in = box.clipped(width_, height_);
     if (in.empty()) return true;
-    const auto i0 = static_cast<std::size_t>(in.x0) >> cell_bits_, j0 = static_cast<std::size_t>(in.y0) >> cell_bits_;
-    const auto i1 = static_cast<std::size_t>(cells(static_cast<int>(in.x1))),
-               j1 = static_cast<std::size_t>(cells(static_cast<int>(in.y1)));
-    const std::uint32_t count =
-        words_[j1 * row_ + i1] - words_[j1 * row_ + i0] - words_[j0 * row_ + i1] + words_[j0 * row_ + i0];
-    return (count & mask_) == ((i1 - i0) * (j1 - j0) & mask_);
+    const auto [opaque, all] = opaque_cells(in);
+    return opaque == all;
+  }
+
+  /// Whether the rectangle lies inside the tile and meets no opaque cell.
+  bool seen(const PixelBox& box) const {
+    if (box.x0 < 0 || box.y0 < 0 || box.x1 > width_ || box.y1 > height_) return false;
+    return opaque_cells(box).first == 0;
   }
 
   std::uint32_t word(int i, int j) const {
@@ -74,6 +77,15 @@ class CullTable {
   std::uint32_t largest_word() const { return mask_; }  ///< 2^b - 1
 
  private:
+  /// Opaque cells, and all cells, that a rectangle inside the tile meets, as words.
+  std::pair<std::uint32_t, std::uint32_t> opaque_cells(const PixelBox& in) const {
+    const auto i0 = static_cast<std::size_t>(in.x0) >> cell_bits_, j0 = static_cast<std::size_t>(in.y0) >> cell_bits_;
+    const auto i1 = static_cast<std::size_t>(cells(static_cast<int>(in.x1))),
+               j1 = static_cast<std::size_t>(cells(static_cast<int>(in.y1)));
+    const std::uint32_t count =
+        words_[j1 * row_ + i1] - words_[j1 * row_ + i0] - words_[j0 * row_ + i1] + words_[j0 * row_ + i0];
+    return {count & mask_, static_cast<std::uint32_t>((i1 - i0) * (j1 - j0)) & mask_};
+  }
   int cells(int pixels) const { return (pixels + (1 << cell_bits_) - 1) >> cell_bits_; }
 
   int cell_bits_;

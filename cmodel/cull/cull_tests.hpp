@@ -18,7 +18,7 @@ class CullTests {
  public:
   explicit CullTests(const Config& config) : lanes_(config.lanes), unit_(config) {}
 
-  /// Logs all results from now on; null: no log. Must outlive this object.
+  /// Logs all results from the next tile on; null: no log. Must outlive this object.
   void log(CullLog* log) { log_ = log; }
   const CullCounts& counts() const { return counts_; }
   /// Whether tests are made in this tile.
@@ -43,8 +43,8 @@ class CullTests {
   void end_sheet();
 
  private:
-  void add(bool hidden) {
-    if (log_ != nullptr) log_->tile(tile_).add(hidden);
+  void add(bool hidden, std::size_t count = 1) {
+    if (answers_ != nullptr) answers_->add(hidden, count);
   }
 
   std::int64_t lanes_;
@@ -52,8 +52,8 @@ class CullTests {
   CullSets<bool> sets_;  ///< cull groups, each with whether it is hidden
   CullCounts counts_;
   CullLog* log_ = nullptr;
-  std::uint32_t tile_ = 0;
-  std::vector<std::uint8_t> hidden_windows_;  ///< of the last splat; empty if no test was made
+  CullAnswers* answers_ = nullptr;            ///< of the open tile, if it is logged
+  std::vector<std::uint8_t> hidden_windows_;  ///< of the last splat; empty if none is
 };
 
 }  // namespace fastsplat::cmodel

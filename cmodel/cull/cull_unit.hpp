@@ -38,6 +38,9 @@ class CullUnit {
   /// The same for P x P blocks, whatever the map's cells (N-6.1-10).
   bool window_hidden(const PixelBox& box) const { return blocks_[now_].hidden(box); }
 
+  /// Whether none of the windows that make up the rectangle is hidden, for certain.
+  bool windows_seen(const PixelBox& box) const { return blocks_[now_].seen(box); }
+
   /// Block (bx,by) of the open sheet was composited; frozen(x, y): whether a pixel is terminated.
   template <class Frozen>
   void composited(int bx, int by, Frozen frozen) {

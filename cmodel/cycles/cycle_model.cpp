@@ -248,13 +248,8 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
       return;
     }
     if (windows > 1) {
-      std::vector<bool> hidden;
-      for (std::uint64_t i = 0; i < windows; ++i) hidden.push_back(answer());
-      stalls_.hidden_windows += static_cast<std::uint64_t>(std::ranges::count(hidden, true));
-      if (std::ranges::find(hidden, true) != hidden.end()) {
-        some_windows(at, tag, x, y, width, height, hidden);
-        return;
-      }
+      if (answers_->any(answered_, windows)) return some_windows(at, tag, x, y, width, height);
+      answered_ += windows;
     }
   }
   if (!every_sample(tile_.mode)) dirty_.mark(x + halo_, y + halo_, width, height);
@@ -285,14 +280,16 @@ void CycleModel::window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std
 }
 
 void CycleModel::some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
-                              std::int32_t height, const std::vector<bool>& hidden) {
+                              std::int32_t height) {
   const std::uint64_t since = at;
   std::uint64_t windows = 0;
-  std::size_t number = 0;
   for (std::int32_t row = 0; row < height; row += config_.lanes) {
     const std::uint64_t before = windows;
     for (std::int32_t column = 0; column < width; column += config_.lanes) {
-      if (hidden[number++]) continue;
+      if (answer()) {
+        ++stalls_.hidden_windows;
+        continue;
+      }
       dirty_.mark(x + column, y + row, config_.lanes, config_.lanes);
       if (options_.taps != nullptr) {
         if (windows == 0) tap(Tap::Snap, at + delay_ + stages::kSnap, tag, x, y);

@@ -147,7 +147,7 @@ class CycleModel final : public Device {
   void fetch_behind(std::uint64_t verdict);
   /// Accounts for a splat some of whose windows are hidden.
   void some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
-                    std::int32_t height, const std::vector<bool>& hidden);
+                    std::int32_t height);
   void window(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y) const;
   /// The register is empty in [from, to).
   void empty(std::uint64_t from, std::uint64_t to);

@@ -2,7 +2,8 @@
 // A table that sorts and filters and stays fast with thousands of rows: only visible rows are in the page. Printing
 // inserts all rows.
 import { h, type Child } from "./dom";
-import { number_text, type Style } from "./figures";
+import { at, number_text, type Style } from "./figures";
+import type { Result } from "./page";
 
 export interface Column<Row> {
   name: string;
@@ -16,6 +17,11 @@ export interface Column<Row> {
   figure?: (row: Row) => string | undefined;
   /** Class of the cell: "pass", "fail", "wrap". */
   kind?: (row: Row) => string;
+}
+
+/** Columns of numbers in the rows of a list: numbers_of("0.sites", sites)("Mean", "lost.mean_ulp", "ulp"). */
+export function numbers_of(list: string, rows: Result[]): (name: string, path: string, unit?: string, style?: Style) => Column<Result> {
+  return (name, path, unit, style) => ({ name, unit, style, value: (row) => at(row, path.split(".")), figure: (row) => `${list}.${rows.indexOf(row)}.${path}` });
 }
 
 export interface TableOptions<Row> {

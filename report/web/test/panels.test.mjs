@@ -70,8 +70,14 @@ test("every number of every panel is that of its result", async () => {
     assert.ok((seen[name] ?? 0) >= limit, name);
   }
   assert.equal(await page.locator("section[data-panel=result]").count(), 0, "a result that no panel draws");
-  // Each can be made again: its command is in a button of its panel.
   const { results } = await data_of(page);
+  // Ranges of any scene: the words of the program's own text.
+  const ranges = results.findIndex(({ verb }) => verb === "errors ranges");
+  const verdicts = await page.$$eval(`#ranges-${ranges} table[aria-label="Ranges of any scene"] tbody td:last-child`, (all) => all.map((each) => each.textContent));
+  figure("verdicts of derived ranges compared", verdicts.length, ">= 10");
+  assert.ok(verdicts.length >= 10);
+  assert.deepEqual(verdicts, results[ranges].derived.map((each) => (each.verdict === "wasteful" ? `${each.unused_head_bits} unused` : each.verdict)));
+  // Each can be made again: its command is in a button of its panel.
   const buttons = await page.$$eval("section.panel button[data-command]", (all) => all.map((each) => each.dataset.command));
   const commands = results.map((each) => each.command).filter(Boolean);
   for (const command of commands) assert.ok(buttons.some((button) => button.split("\n").includes(command)), `no button copies ${command}`);

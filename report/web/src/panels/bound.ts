@@ -5,7 +5,7 @@ import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
 import { cell, lead, made_of, note } from "../parts";
 import { legend } from "../svg";
-import { table } from "../table";
+import { numbers_of, table } from "../table";
 
 const colours = ["c3", "c0", "c1", "c2", "c4", "c5"];
 const known: Record<string, string> = {
@@ -62,20 +62,20 @@ export const bound: Panel = {
       }),
     );
     place.append(legend([...large.map((name, i) => ({ name, colour: colours[i] })), { name: "others", colour: "c7" }]));
-    const figure = (...path: string[]) => (row: Result) => [context.index, "levels", levels.indexOf(row), ...path].join(".");
+    const number = numbers_of(`${context.index}.levels`, levels);
     table(root, {
       label: "Levels of the bound",
       rows: levels,
       columns: [
         { name: "Known", value: (row) => known[row.known] ?? row.known },
-        { name: "Values", value: (row) => row.values, figure: figure("values") },
-        { name: "Over the bound", value: (row) => row.over, figure: figure("over"), kind: (row) => (row.over > 0 ? "fail" : "") },
-        { name: "Greatest error", unit: "LSB8", value: (row) => row.greatest_error_lsb8, style: { digits: 3 }, figure: figure("greatest_error_lsb8") },
-        { name: "Greatest bound", unit: "LSB8", value: (row) => row.greatest_bound_lsb8, style: { digits: 3 }, figure: figure("greatest_bound_lsb8") },
-        { name: "Error / bound, at most", unit: "times", value: (row) => row.greatest_error_to_bound, style: { digits: 4 }, figure: figure("greatest_error_to_bound") },
-        { name: "Bound / error, median", unit: "times", value: (row) => row.bound_to_error?.median, style: { digits: 1 }, figure: figure("bound_to_error", "median") },
-        { name: "90 %", unit: "times", value: (row) => row.bound_to_error?.p90, style: { digits: 1 }, figure: figure("bound_to_error", "p90") },
-        { name: "99 %", unit: "times", value: (row) => row.bound_to_error?.p99, style: { digits: 1 }, figure: figure("bound_to_error", "p99") },
+        number("Values", "values"),
+        { ...number("Over the bound", "over"), kind: (row) => (row.over > 0 ? "fail" : "") },
+        number("Greatest error", "greatest_error_lsb8", "LSB8", { digits: 3 }),
+        number("Greatest bound", "greatest_bound_lsb8", "LSB8", { digits: 3 }),
+        number("Error / bound, at most", "greatest_error_to_bound", "times", { digits: 4 }),
+        number("Bound / error, median", "bound_to_error.median", "times", { digits: 1 }),
+        number("90 %", "bound_to_error.p90", "times", { digits: 1 }),
+        number("99 %", "bound_to_error.p99", "times", { digits: 1 }),
         { name: "Dominant", value: (row) => row.dominant },
       ],
     });

@@ -6,7 +6,7 @@ import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
 import { cell, cost_unit, grid, lead, made_of, note, tiles } from "../parts";
 import { legend } from "../svg";
-import { table } from "../table";
+import { numbers_of, table } from "../table";
 
 function steps(root: HTMLElement, result: Result): void {
   const total = result.total.rms_lsb8 ** 2;
@@ -128,7 +128,7 @@ export const errors: Panel = {
         alone ? " Alone: the error with this step's arithmetic only. Left out: the error without it." : " Steps alone and left out were not measured (--quick).",
       ),
     );
-    const figure = (...path: (string | number)[]) => (row: Result) => [context.index, "steps", place(row), ...path].join(".");
+    const number = numbers_of(`${context.index}.steps`, result.steps);
     const percent = { scale: 100, digits: 2 };
     table(root, {
       label: "Steps",
@@ -136,13 +136,13 @@ export const errors: Panel = {
       columns: [
         { name: "Step", value: (row) => row.name },
         { name: "By", value: (row) => row.by },
-        { name: "Share", unit: "%", value: (row) => row.share, style: percent, figure: figure("share") },
-        { name: "RMS", unit: "LSB8", value: (row) => row.increment?.rms_lsb8, style: { digits: 4 }, figure: figure("increment", "rms_lsb8") },
-        { name: "Max", unit: "LSB8", value: (row) => row.increment?.max_lsb8, style: { digits: 3 }, figure: figure("increment", "max_lsb8") },
-        { name: "Bias", unit: "LSB8", value: (row) => row.increment?.bias_lsb8, style: { digits: 4, sign: true }, figure: figure("increment", "bias_lsb8") },
-        { name: "Alone", unit: "%", value: (row) => row.alone_share, style: percent, figure: figure("alone_share") },
-        { name: "Left out", unit: "LSB8", value: (row) => row.left_out?.rms_lsb8, style: { digits: 4 }, figure: figure("left_out", "rms_lsb8") },
-        { name: "Rules pixels", unit: "%", value: (row) => row.pixels_ruled, style: { scale: 100, digits: 1 }, figure: figure("pixels_ruled") },
+        number("Share", "share", "%", percent),
+        number("RMS", "increment.rms_lsb8", "LSB8", { digits: 4 }),
+        number("Max", "increment.max_lsb8", "LSB8", { digits: 3 }),
+        number("Bias", "increment.bias_lsb8", "LSB8", { digits: 4, sign: true }),
+        number("Alone", "alone_share", "%", percent),
+        number("Left out", "left_out.rms_lsb8", "LSB8", { digits: 4 }),
+        number("Rules pixels", "pixels_ruled", "%", { scale: 100, digits: 1 }),
         { name: "Keys", value: (row) => row.keys },
       ],
     });

@@ -5,7 +5,7 @@ import { figures_of, number_text } from "../figures";
 import type { Panel, Result } from "../page";
 import { cell, lead, made_of, note, tiles } from "../parts";
 import { legend } from "../svg";
-import { table } from "../table";
+import { numbers_of, table } from "../table";
 
 const colours: Record<string, string> = { file: "c0", device: "c1" };
 
@@ -66,17 +66,17 @@ export const errors_file: Panel = {
     const place = cell(root);
     chain(place, parts);
     place.append(legend([{ name: "file", colour: "c0" }, { name: "device", colour: "c1" }, { name: "sum", colour: "c7" }]));
-    const figure = (...path: string[]) => (row: Result) => [context.index, "parts", parts.indexOf(row), ...path].join(".");
+    const number = numbers_of(`${context.index}.parts`, parts);
     table(root, {
       label: "Attributes and steps",
       rows: parts,
       columns: [
         { name: "Part", value: (row) => row.name },
         { name: "By", value: (row) => row.by },
-        { name: "Share", unit: "%", value: (row) => row.share, style: { scale: 100, digits: 2 }, figure: figure("share") },
-        { name: "RMS", unit: "LSB8", value: (row) => row.rms_lsb8, style: { digits: 4 }, figure: figure("rms_lsb8") },
-        { name: "Max", unit: "LSB8", value: (row) => row.max_lsb8, style: { digits: 3 }, figure: figure("max_lsb8") },
-        { name: "Alone", unit: "dB", value: (row) => row.alone?.psnr_db, style: { digits: 1 }, figure: figure("alone", "psnr_db") },
+        number("Share", "share", "%", { scale: 100, digits: 2 }),
+        number("RMS", "rms_lsb8", "LSB8", { digits: 4 }),
+        number("Max", "max_lsb8", "LSB8", { digits: 3 }),
+        number("Alone", "alone.psnr_db", "dB", { digits: 1 }),
       ],
     });
   },

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `errors ranges`: the values at the device's narrowing sites, bit by bit.
-import { h, s } from "../dom";
-import { figures_of, number_text } from "../figures";
+import { h, s, type Child } from "../dom";
+import { at, figures_of, number_text, type Path } from "../figures";
 import type { Panel, Result } from "../page";
 import { lead, made_of, note } from "../parts";
 import { drawing, line, text } from "../svg";
-import { table } from "../table";
+import { numbers_of, table } from "../table";
 
 /** Weights of a word's first and last bit, from its format: "U 2.16", "S 12.6", "One.16" (0..1, both ends). */
 export function word_bits(format: string): { first: number; last: number } | null {
@@ -94,36 +94,52 @@ export const ranges: Panel = {
       note([...(result.scenes ?? []).map((scene: Result) => scene.scene), made_of(result)].filter(Boolean).join("; ")),
     );
     bits(root, sites);
-    const figure = (...path: string[]) => (row: Result) => [context.index, "sites", sites.indexOf(row), ...path].join(".");
+    const number = numbers_of(`${context.index}.sites`, sites);
     table(root, {
       label: "Places that narrow",
       rows: sites,
       columns: [
         { name: "Signal", value: (row) => row.site },
         { name: "Word", value: (row) => row.format },
-        { name: "Values", value: (row) => row.values, figure: figure("values") },
-        { name: "Least", value: (row) => row.least, figure: figure("least") },
-        { name: "Greatest", value: (row) => row.greatest, figure: figure("greatest") },
-        { name: "Saturated", value: (row) => row.saturated, figure: figure("saturated"), kind: (row) => (row.saturated > 0 ? "fail" : "") },
-        { name: "Head unused", unit: "bits", value: (row) => row.unused_head_bits, figure: figure("unused_head_bits") },
-        { name: "Tail idle", unit: "bits", value: (row) => row.idle_tail_bits, figure: figure("idle_tail_bits") },
-        { name: "Dropped", unit: "bits", value: (row) => row.dropped_bits, figure: figure("dropped_bits") },
-        { name: "Lost, mean", unit: "ulp", value: (row) => row.lost?.mean_ulp, style: { digits: 4, sign: true }, figure: figure("lost", "mean_ulp") },
-        { name: "Lost, RMS", unit: "ulp", value: (row) => row.lost?.rms_ulp, style: { digits: 4 }, figure: figure("lost", "rms_ulp") },
-        { name: "RMS in theory", unit: "ulp", value: (row) => row.theory?.rms_ulp, style: { digits: 4 }, figure: figure("theory", "rms_ulp") },
+        number("Values", "values"),
+        number("Least", "least"),
+        number("Greatest", "greatest"),
+        { ...number("Saturated", "saturated"), kind: (row) => (row.saturated > 0 ? "fail" : "") },
+        number("Head unused", "unused_head_bits", "bits"),
+        number("Tail idle", "idle_tail_bits", "bits"),
+        number("Dropped", "dropped_bits", "bits"),
+        number("Lost, mean", "lost.mean_ulp", "ulp", { digits: 4, sign: true }),
+        number("Lost, RMS", "lost.rms_ulp", "ulp", { digits: 4 }),
+        number("RMS in theory", "theory.rms_ulp", "ulp", { digits: 4 }),
       ],
     });
+    const derived: Result[] = result.derived ?? [];
+    if (derived.length) {
+      root.append(h("h3", {}, "Ranges of any scene"), note("Derived from the configuration alone. Tight: no scene saturates the word, and one bit less could. Unused: leading bits that no scene needs."));
+      const both = (row: Result, ends: Path[]): Child => ends.map((end, i) => [i ? " to " : "", show(["derived", derived.indexOf(row), ...end], { digits: Number.isInteger(at(row, end)) ? 0 : 5 })]);
+      table(root, {
+        label: "Ranges of any scene",
+        rows: derived,
+        columns: [
+          { name: "Signal", value: (row) => row.site },
+          { name: "Word", value: (row) => row.format },
+          { name: "These scenes", value: (row) => row.simulated?.[1], cell: (row) => (row.simulated ? both(row, [["simulated", 0], ["simulated", 1]]) : "\u2013") },
+          { name: "Any scene", value: (row) => row.greatest, cell: (row) => both(row, [["least"], ["greatest"]]) },
+          { name: "Verdict", value: (row) => (row.verdict === "wasteful" ? `${row.unused_head_bits} unused` : row.verdict), kind: (row) => (row.verdict === "saturates" ? "fail" : "") },
+        ],
+      });
+    }
     if (!needs.length) return;
     root.append(h("h3", {}, "Widths of the configuration"));
-    const of_need = (...path: string[]) => (row: Result) => [context.index, "needs", needs.indexOf(row), ...path].join(".");
+    const width = numbers_of(`${context.index}.needs`, needs);
     table(root, {
       label: "Widths",
       rows: needs,
       columns: [
         { name: "Key", value: (row) => row.key },
-        { name: "Has", unit: "bits", value: (row) => row.has, figure: of_need("has") },
-        { name: "Needs", unit: "bits", value: (row) => row.needs, figure: of_need("needs") },
-        { name: "Possible", unit: "bits", value: (row) => row.possible, figure: of_need("possible") },
+        width("Has", "has", "bits"),
+        width("Needs", "needs", "bits"),
+        width("Possible", "possible", "bits"),
         { name: "Why", value: (row) => row.why },
         { name: "Limit", value: (row) => row.limit, kind: () => "wrap" },
       ],

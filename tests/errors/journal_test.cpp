@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "analysis/compare.hpp"
@@ -33,12 +34,15 @@ TEST(Target, FiguresAreThoseOfCompare) {
   EXPECT_EQ(got.max_lsb, want.max_abs_lsb);
   EXPECT_EQ(got.psnr_db(), want.psnr_db);
   EXPECT_TRUE(std::isinf(fidelity(ref, ref, 1).psnr_db()));
+  out.data[5] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(parse_targets({"rms<=1e9"}).met(fidelity(ref, out, 1))) << "one pixel is not a number";
   std::printf("[figure] PSNR %.4f dB, RMS %.5f and max %.4f LSB8, as compare has them\n", got.psnr_db(), got.rms_lsb,
               got.max_lsb);
 }
 
 TEST(Target, IsMetWhereItsExcessIsOneAtMost) {
-  for (const auto& [text, of, met] : {std::tuple{"psnr>=50", Fidelity{0.8, 9.0}, true},
+  for (const auto& [text, of, met] : {std::tuple{"psnr>=20", Fidelity{25.5, 99.0}, true},  // exactly 20 dB
+                                      {"psnr>=50", Fidelity{0.8, 9.0}, true},
                                       {"psnr>=50", Fidelity{0.81, 0.9}, false},
                                       {"max<=1", Fidelity{0.1, 1.0}, true},
                                       {"max<=1", Fidelity{0.1, 1.001}, false},
@@ -53,6 +57,11 @@ TEST(Target, IsMetWhereItsExcessIsOneAtMost) {
   EXPECT_FALSE(both.met({0.1, 1.1}));
   EXPECT_FALSE(both.met({0.9, 1.0}));
   EXPECT_EQ(both.fps, 24.0);
+  // The greatest of both: 50 dB are an RMS of 255 / 10^2.5 = 0.8064 LSB.
+  std::printf("[figure] excess of the PSNR %.4f, of the maximum %.4f (2 of both)\n", both.excess({1.6128, 0.5}),
+              both.excess({0.1, 2.0}));
+  EXPECT_NEAR(both.excess({1.6128, 0.5}), 2.0, 1e-4);
+  EXPECT_EQ(both.excess({0.1, 2.0}), 2.0);
   EXPECT_EQ(both.text(), "psnr>=50, max<=1, fps>=24");
   for (const char* bad : {"", "psnr", "psnr>50", "psnr>=", "psnr>=fifty", "psnr>=-3", "psnr>=1e9", "max<=0",
                           "ssim>=0.9", "max<=1LSB", "PSNR>=50", "fps>=0", "fps<=60"}) {

@@ -82,6 +82,18 @@ TEST(Area, BlockRamsAndDspsAreExact) {
   }
 }
 
+/// Of a Kintex-7 XC7K325T: 203,800 LUTs, 407,600 flip-flops, 890 halves of block RAM, 840 DSPs.
+TEST(Area, OneNumberCountsEachResourceByItsShareOfTheChip) {
+  const double lut = 203800.0;
+  std::printf("[figure] a chip's flip-flops, block RAMs and DSPs = %.0f, %.0f, %.0f LUTs (%.0f each)\n",
+              Area{.ff = 407600}.equivalent_luts(), Area{.half_bram = 890}.equivalent_luts(),
+              Area{.dsp = 840}.equivalent_luts(), lut);
+  EXPECT_EQ((Area{.lut = 2, .memory_lut = 3}.equivalent_luts()), 5.0);
+  EXPECT_DOUBLE_EQ(Area{.ff = 407600}.equivalent_luts(), lut);
+  EXPECT_DOUBLE_EQ(Area{.half_bram = 890}.equivalent_luts(), lut);
+  EXPECT_DOUBLE_EQ(Area{.dsp = 840}.equivalent_luts(), lut);
+}
+
 TEST(Area, IsNearTheFiguresOfSynthesisWhereThereAreSome) {
   for (const char* name : {"tiny", "small", "base"}) {
     const auto config = driver::load_config(name);

@@ -70,10 +70,21 @@ int exchangeable(const Config& best, const Evaluate& evaluate, int& tried) {
   return count;
 }
 
+/// The lowest value of a knob with which the start, otherwise unchanged, still meets the target.
+std::string lowest_alone(const Config& start, std::size_t knob, const Evaluate& evaluate) {
+  Steps steps(knobs().size(), 0);
+  std::string text;
+  for (auto config = std::optional(start); config && evaluate(*config).meets; config = turned(start, steps)) {
+    text = cmodel::text_of(*config, *cmodel::find_key(knobs()[knob].key));
+    --steps[knob];
+  }
+  return text;
+}
+
 TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
-  test::Random random(5);
+  test::Random random(4);  // its formula 14 needs a knob two steps down
   const Config base = test::named_config("base");
-  int most = 0, met = 0, pairs = 0;
+  int most = 0, met = 0, pairs = 0, dearer = 0;
   double dearest = 0.0;
   for (int n = 0; n < 40; ++n) {
     Noises noises{std::vector<double>(freeze_knob(), 0.0), 0.0, 1.0};
@@ -85,6 +96,14 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
     EXPECT_TRUE(noises(out.best).meets);
     EXPECT_EQ(lowerable(out.best, noises), 0) << "formula " << n;
     EXPECT_EQ(exchangeable(out.best, noises, pairs), 0) << "formula " << n;
+    for (std::size_t k = 0; k < knobs().size(); ++k) {
+      Steps lower(knobs().size(), 0);
+      lower[k] = -1;
+      const auto config = turned(out.best, lower);
+      EXPECT_EQ(out.keys[k].dearer, config && price(*config) > price(out.best)) << knobs()[k].key;
+      EXPECT_EQ(out.keys[k].alone, lowest_alone(out.start, k, noises)) << knobs()[k].key;
+      dearer += out.keys[k].dearer ? 1 : 0;
+    }
     most = std::max(most, out.evaluated);
     if (noises(base).meets) {
       EXPECT_LE(price(out.best), price(base));
@@ -96,9 +115,9 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
   }
   std::printf(
       "[figure] searches that met their target = %d, most configurations evaluated = %d, dearest = %.3f of base, pairs "
-      "tried "
-      "on them = %d\n",
-      met, most, dearest, pairs);
+      "tried on them = %d, keys whose step down costs more = %d (limit > 0)\n",
+      met, most, dearest, pairs, dearer);
+  EXPECT_GT(dearer, 0);
   EXPECT_GE(met, 20);
   EXPECT_GT(pairs, 1000);
   // Halving 14 keys, rounds of 14, and pairs at the end: more frames than this take too long.
@@ -184,6 +203,14 @@ TEST(Search, SaysSoWhereNothingMeetsTheTarget) {
   EXPECT_EQ(out.geometry->rlut_columns, 2 * base.rlut_columns);
   std::printf("[figure] asked before giving up = %d (limit 25)\n", asked);
   EXPECT_LE(asked, 25);
+  // Finer words are worse, more columns no better: the start is the nearest, and nothing would help.
+  const auto best_as_it_is = [&](const Config& config) {
+    return Verdict{false, config == base || config.rlut_columns > base.rlut_columns ? 3.0 : 4.0};
+  };
+  const SearchOutcome kept = Search(base, best_as_it_is, price).run();
+  EXPECT_EQ(kept.best, base);
+  EXPECT_EQ(kept.verdict.excess, 3.0);
+  EXPECT_FALSE(kept.geometry);
 }
 
 TEST(Knobs, StayWithinTheLimitsAndTakeCompanionsAlong) {

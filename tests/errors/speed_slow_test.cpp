@@ -199,6 +199,32 @@ TEST(ProposedSpeed, DevicesAreAsManyAsTheProposedWordsNeed) {
   EXPECT_LT(counted.fps(devices - 1), 2000.0);
 }
 
+// The estimate of a number of devices errs either way: the least is found by counting.
+TEST(ProposedSpeed, OneDeviceLessIsTooSlow) {
+  const auto two = scenes();
+  const Config base = driver::load_config("base");
+  SpeedSearch search(two, kClock, 0);
+  int compared = 0;
+  for (const SpeedKeys& keys : {SpeedKeys{2, 16, 16, 1, 0}, {2, 16, 16, 4, 0}, {4, 16, 16, 16, 1}, {4, 16, 16, 1, 1}}) {
+    const auto config = arranged(base, keys);
+    if (!config) continue;
+    const Counted counted(two, *config);
+    std::vector<double> rates;
+    for (int devices = 1; devices <= 24; ++devices) {
+      rates.push_back(counted.fps(devices));
+      const int least =
+          1 + static_cast<int>(std::ranges::find_if(rates, [&](double rate) { return rate >= rates.back(); }) -
+                               rates.begin());
+      const auto found = search.least_devices(base, keys, rates.back());
+      ASSERT_TRUE(found) << keys.text() << ", " << devices;
+      EXPECT_EQ(found->devices, least) << keys.text();
+      ++compared;
+    }
+  }
+  std::printf("[figure] numbers of devices compared = %d (limit 96)\n", compared);
+  EXPECT_EQ(compared, 96);
+}
+
 TEST(ProposedSpeed, AnArrangementChangesNoPixel) {
   const auto two = scenes();
   const Config base = driver::load_config("base");

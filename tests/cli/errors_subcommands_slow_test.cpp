@@ -6,6 +6,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <sstream>
 
 #include "base/images/image_file.hpp"
 #include "tests/cli/words_helper.hpp"
@@ -84,24 +85,62 @@ TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
 
 TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   const TempFolder folder;
-  const auto told = fastsplat(with(kPropose, with(kSmall, {"--target", "fps>=700", "--clock", "100", "-o",
-                                                           folder / "p.toml", "--json", folder / "p.json"})));
+  const Words scene{"--volume", "shells:12", "--size", "64"};  // two devices
+  const auto told = fastsplat(with(kPropose, with(scene, {"--target", "fps>=9500", "--clock", "100", "-o",
+                                                          folder / "p.toml", "--json", folder / "p.json"})));
   expect_success(told);
   const Json speed = Json::parse(read_bytes(folder / "p.json")).at("speed"), &best = speed.at("proposed");
   Words words{"cycles",  "--config", folder / "p.toml", "--devices",      best.at("devices").dump(),
               "--clock", "100",      "--json",          folder / "c.json"};
   if (best.at("cull_map") != "off") words = with(words, {"--fetch", "40"});
-  expect_success(fastsplat(with(words, kSmall)));
+  expect_success(fastsplat(with(words, scene)));
   const Json scaling = Json::parse(read_bytes(folder / "c.json")).at("scaling");
   EXPECT_EQ(scaling.at("frame_cycles"), best.at("cycles").at(0));
   EXPECT_EQ(scaling.at("fps"), best.at("fps"));
-  EXPECT_GE(scaling.at("fps").get<double>(), 700.0);
-  EXPECT_EQ(speed.at("others").size(), 2U);
+  EXPECT_NEAR(scaling.at("milliseconds"), best.at("milliseconds"), 1e-12);
+  EXPECT_GE(scaling.at("fps").get<double>(), 9500.0);
+  ASSERT_EQ(speed.at("others").size(), 2U);
+  for (const auto& [other, rate] : {std::pair{0, 4750.0}, {1, 19000.0}}) {
+    EXPECT_EQ(speed.at("others")[other].at("target_fps"), rate);
+    EXPECT_GE(speed.at("others")[other].at("fps"), rate);
+  }
   const int number = best.at("devices");
+  EXPECT_EQ(number, 2);
+  /// The first numbers behind a text of the output.
+  const auto numbers = [&](const std::string& behind, std::size_t count) {
+    const auto place = told.out.find(behind);
+    std::istringstream rest(place == std::string::npos ? "" : told.out.substr(place + behind.size()));
+    std::vector<double> out(count, -1.0);
+    for (double& each : out) rest >> each;
+    return out;
+  };
+  const auto rates = numbers("fps  scene\n", 3);
+  std::printf("[figure] printed: %.0f cycles, %.3f ms, %.2f fps\n", rates[0], rates[1], rates[2]);
+  EXPECT_EQ(rates[0], scaling.at("frame_cycles"));
+  EXPECT_NEAR(rates[1], scaling.at("milliseconds"), 0.0005);
+  EXPECT_NEAR(rates[2], scaling.at("fps"), 0.005);
+  // Areas are those of the configuration, times the devices, rounded to whole cells.
+  for (const auto& [row, config] :
+       {std::pair<std::string, std::string>{"from", "base"}, {"proposed", folder / "p.toml"}}) {
+    const Json area = Json::parse(fastsplat({"config", "show", config, "--json", "-"}).out).at("area");
+    const double devices = speed.at(row).at("devices");
+    const auto printed = numbers("\n" + row + " ", 6);
+    std::printf("[figure] %s: %.0f devices, %.0f LUT, %.0f RAMB36\n", row.c_str(), printed[0], printed[1], printed[3]);
+    EXPECT_EQ(printed[0], devices) << row;
+    int place = 0;
+    for (const auto& [key, of_one] : {std::pair{"lut", area.at("lut").get<double>()},
+                                      {"ff", area.at("ff")},
+                                      {"ramb36", area.at("half_bram").get<double>() / 2},
+                                      {"dsp", area.at("dsp")},
+                                      {"equivalent_luts", area.at("equivalent_luts")}}) {
+      EXPECT_NEAR(speed.at(row).at("area").at(key), devices * of_one, 0.5 * devices) << row << " " << key;
+      EXPECT_NEAR(printed[++place], speed.at(row).at("area").at(key), 0.5) << row << " " << key;
+    }
+  }
   const std::string devices = std::to_string(number) + (number == 1 ? " device" : " devices");
   EXPECT_NE(told.out.find(" fps with " + devices), std::string::npos) << told.out;
   const auto page = fastsplat({"report", folder / "p.json", "-o", folder / "p.html"});
-  EXPECT_NE((page.out + page.err).find("psnr>=40, fps>=700 is met by " + devices), std::string::npos) << page.out;
+  EXPECT_NE((page.out + page.err).find("psnr>=40, fps>=9500 is met by " + devices), std::string::npos) << page.out;
 }
 
 TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {

@@ -40,21 +40,28 @@ class CullAnswers {
   /// `count` equal answers.
   void add(bool hidden, std::size_t count) {
     words_.resize((size_ + count + 63) / 64);
-    for (const std::size_t end = size_ + count; hidden && size_ < end; ++size_)
-      words_[size_ / 64] |= std::uint64_t{1} << size_ % 64;
-    if (!hidden) size_ += count;
+    for (const std::size_t end = size_ + count; size_ < end;) {
+      const std::size_t here = std::min(64 - size_ % 64, end - size_);
+      if (hidden) words_[size_ / 64] |= ~std::uint64_t{0} >> (64 - here) << size_ % 64;
+      size_ += here;
+    }
   }
   bool operator[](std::size_t at) const {
     check(at, 1);
     return (words_[at / 64] >> at % 64 & 1) != 0;
   }
+  /// 1 to 64 answers, the first lowest; 1: hidden.
+  std::uint64_t bits(std::size_t at, std::size_t count) const {
+    check(at, count);
+    std::uint64_t out = words_[at / 64] >> at % 64;
+    if (at % 64 + count > 64) out |= words_[at / 64 + 1] << (64 - at % 64);
+    return out & ~std::uint64_t{0} >> (64 - count);
+  }
   /// Whether one of `count` answers is that something is hidden.
   bool any(std::size_t at, std::size_t count) const {
-    check(at, count);
-    for (const std::size_t end = at + count; at < end;) {
-      const std::size_t here = std::min(64 - at % 64, end - at);
-      if ((words_[at / 64] >> at % 64 & ~std::uint64_t{0} >> (64 - here)) != 0) return true;
-      at += here;
+    for (std::size_t here = 0; count > 0; at += here, count -= here) {
+      here = std::min<std::size_t>(count, 64);
+      if (bits(at, here) != 0) return true;
     }
     return false;
   }

@@ -65,11 +65,10 @@ class CullTable {
     return opaque == all;
   }
 
-  /// Whether the rectangle lies inside the tile and meets no opaque cell.
-  bool seen(const PixelBox& box) const {
-    if (box.x0 < 0 || box.y0 < 0 || box.x1 > width_ || box.y1 > height_) return false;
-    return opaque_cells(box).first == 0;
-  }
+  /// Whether the rectangle, inside the tile, meets no opaque cell.
+  bool seen(const PixelBox& box) const { return opaque_cells(box).first == 0; }
+  /// The part of a rectangle inside the tile.
+  PixelBox inside(const PixelBox& box) const { return box.clipped(width_, height_); }
 
   std::uint32_t word(int i, int j) const {
     return words_[static_cast<std::size_t>(j) * row_ + static_cast<std::size_t>(i)];

@@ -38,17 +38,31 @@ bool CullTests::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, st
   hidden_windows_.clear();
   const std::size_t windows = std::size_t{columns} * rows;
   if (all || windows == 1) return all;
-  if (unit_.windows_seen(box)) {
-    add(false, windows);
-    return false;
-  }
+  // Windows beyond the tile are hidden. The others are seen if no block is opaque there; else each is tested.
+  const PixelBox inside = unit_.windows().inside(box);
+  const bool seen = unit_.windows().seen(inside);
+  const auto first = static_cast<std::size_t>((inside.x0 - box.x0) / lanes_),
+             last = static_cast<std::size_t>((inside.x1 - 1 - box.x0) / lanes_);
+  const auto take = [&](bool one, std::size_t count) {
+    hidden_windows_.resize(hidden_windows_.size() + count, one ? 1 : 0);
+    counts_.hidden_windows += one ? count : 0;
+    add(one, count);
+  };
   for (std::int64_t top = box.y0; top < box.y1; top += lanes_) {
-    for (std::int64_t left = box.x0; left < box.x1; left += lanes_) {
-      const bool one = unit_.window_hidden({left, top, left + lanes_, top + lanes_});
-      hidden_windows_.push_back(one ? 1 : 0);
-      counts_.hidden_windows += one ? 1 : 0;
-      add(one);
+    if (top + lanes_ <= inside.y0 || top >= inside.y1) {
+      take(true, columns);
+      continue;
     }
+    take(true, first);
+    if (seen) {
+      take(false, last + 1 - first);
+    } else {
+      for (std::size_t column = first; column <= last; ++column) {
+        const std::int64_t left = box.x0 + static_cast<std::int64_t>(column) * lanes_;
+        take(unit_.window_hidden({left, top, left + lanes_, top + lanes_}), 1);
+      }
+    }
+    take(true, columns - 1 - last);
   }
   return false;
 }

@@ -2,6 +2,7 @@
 #include "cmodel/cycles/cycle_model.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -283,20 +284,24 @@ void CycleModel::some_windows(std::uint64_t at, std::uint32_t tag, std::int32_t 
                               std::int32_t height) {
   const std::uint64_t since = at;
   std::uint64_t windows = 0;
+  const int columns = width / config_.lanes;
   for (std::int32_t row = 0; row < height; row += config_.lanes) {
     const std::uint64_t before = windows;
-    for (std::int32_t column = 0; column < width; column += config_.lanes) {
-      if (answer()) {
-        ++stalls_.hidden_windows;
-        continue;
+    for (int first = 0; first < columns; first += 64) {
+      const auto some = static_cast<std::size_t>(std::min(columns - first, 64));
+      const std::uint64_t hidden = answers_->bits(answered_, some);
+      answered_ += some;
+      stalls_.hidden_windows += static_cast<std::uint64_t>(std::popcount(hidden));
+      for (std::uint64_t seen = ~hidden & ~std::uint64_t{0} >> (64 - some); seen != 0; seen &= seen - 1) {
+        const std::int32_t column = (first + std::countr_zero(seen)) * config_.lanes;
+        dirty_.mark(x + column, y + row, config_.lanes, config_.lanes);
+        if (options_.taps != nullptr) {
+          if (windows == 0) tap(Tap::Snap, at + delay_ + stages::kSnap, tag, x, y);
+          window(at + delay_, tag, x + column, y + row);
+        }
+        ++windows;
+        ++at;
       }
-      dirty_.mark(x + column, y + row, config_.lanes, config_.lanes);
-      if (options_.taps != nullptr) {
-        if (windows == 0) tap(Tap::Snap, at + delay_ + stages::kSnap, tag, x, y);
-        window(at + delay_, tag, x + column, y + row);
-      }
-      ++windows;
-      ++at;
     }
     if (windows > before) continue;
     accountant_.pause(Pause::Hidden, at, at + 1);  // the walk takes one row of windows a cycle

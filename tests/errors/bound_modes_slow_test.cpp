@@ -440,6 +440,34 @@ TEST(BoundOfDensities, HoldsOfNamedConfigurations) {
   EXPECT_GT(totals.worst, 0.5);
 }
 
+/// One or two voxels, whose densities err as far as the bound says, and mostly little light but that of gradients.
+TEST(BoundOfDensities, HoldsForSingleSplats) {
+  test::Random random(test::seed_or(3223));
+  BoundTotals totals;
+  for (int frame = 0; frame < 400; ++frame) {
+    cmodel::Config config = isolating(test::random_density_config(random));
+    config.position_frac_bits = std::min(config.position_frac_bits, 3);
+    auto description = isolating(stages::test::random_density_scene(random));
+    description.volume = "marschner-lobb:12";
+    description.transfer_function = random.once_in(2) ? "terrain" : "linear";
+    description.shading = 1;
+    description.opacity_scale = 16.0;
+    const int x = static_cast<int>(random.between(2, 8)), y = static_cast<int>(random.between(2, 8));
+    description.crop = {.low = {x, y, 4}, .high = {x, y, 4 + static_cast<int>(random.between(0, 1))}};
+    try {
+      const scene::Scene scene = scene::build_scene(description);
+      const Chain chain(scene, config);
+      hold(chain, totals);
+      for (const auto& steps : {Mixture{Step::Position, Step::Snap}, Mixture{Step::Index}, Mixture{Step::Depth}})
+        hold(chain, steps, totals);
+    } catch (const UserError&) {
+      continue;
+    }
+  }
+  totals.print("single splats of densities");
+  EXPECT_GT(totals.frames, 500u);
+}
+
 TEST(BoundOfDensities, HoldsForEachStepAlone) {
   std::vector<std::vector<Step>> of_densities;
   for (const Step step : stages::all_steps()) {

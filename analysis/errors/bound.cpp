@@ -6,6 +6,7 @@
 
 #include "analysis/errors/bound_band.hpp"
 #include "analysis/errors/bound_densities.hpp"
+#include "analysis/pipeline/density_frame.hpp"
 #include "base/parallel/parallel.hpp"
 #include "driver/tiles/compile.hpp"
 
@@ -85,7 +86,7 @@ Bound bound(const stages::Chain& chain, const stages::Picture& real, const stage
       chain.config(), width, height, rows_of_band(samples ? touched / height : static_cast<double>(sheets) * width));
   const stages::BandBins bins(
       bands, sheets, count, threads,
-      [&](std::size_t i) { return densities ? driver::widened(extents[i], DensityBoundBand::kHalo) : extents[i]; },
+      [&](std::size_t i) { return densities ? driver::widened(extents[i], stages::DensityBand::kHalo) : extents[i]; },
       [&](std::size_t i) { return first[i]; });
 
   Bound out{{width, height, std::vector<Sums>(static_cast<std::size_t>(width) * height)}, {}};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/pipeline/density_frame.hpp"
+
 namespace fastsplat::analysis {
 namespace {
 
@@ -23,7 +25,8 @@ DensityBoundBand::DensityBoundBand(const stages::Chain& chain, const stages::Mix
       r_(roundings),
       splats_(splats),
       rows_(rows),
-      with_halo_{std::max(rows.first - kHalo, 0), std::min(rows.end + kHalo, chain.scene().description.height)},
+      with_halo_{std::max(rows.first - stages::DensityBand::kHalo, 0),
+                 std::min(rows.end + stages::DensityBand::kHalo, chain.scene().description.height)},
       width_(width),
       height_(chain.scene().description.height),
       sheets_(chain.steps().sheets()),
@@ -89,16 +92,14 @@ stages::DensityRange DensityBoundBand::around(int x, int y, int sheet, bool with
     return stages::Range{std::clamp(density.known - error, 0.0, r_.largest_sum),
                          std::min(density.known + error, r_.largest_sum)};
   };
-  const auto difference = [](const stages::Range& a, const stages::Range& b, double factor) {
-    return stages::Range{factor * (a.low - b.high), factor * (a.high - b.low)};
+  const auto difference = [](const stages::Range& before, const stages::Range& behind, double factor) {
+    return stages::Range{factor * (behind.low - before.high), factor * (behind.high - before.low)};
   };
-  // At the picture's edge the pixel itself stands for its neighbour (N-6.2-9).
-  const int left = std::max(x - 1, 0), right = std::min(x + 1, width_ - 1), above = std::max(y - 1, 0),
-            below = std::min(y + 1, height_ - 1);
+  const stages::Beside column = stages::beside(x, width_), row = stages::beside(y, height_);
   return {.density = range(x, y, sheet),
-          .across = {difference(range(right, y, sheet), range(left, y, sheet), x == left || x == right ? 2.0 : 1.0),
-                     difference(range(x, below, sheet), range(x, above, sheet), y == above || y == below ? 2.0 : 1.0),
-                     difference(range(x, y, sheet + 1), range(x, y, sheet - 1), 1.0)},
+          .across = {difference(range(column.before, y, sheet), range(column.behind, y, sheet), column.factor),
+                     difference(range(x, row.before, sheet), range(x, row.behind, sheet), row.factor),
+                     difference(range(x, y, sheet - 1), range(x, y, sheet + 1), 1.0)},
           .x = x,
           .y = y,
           .sheet = sheet};
@@ -121,12 +122,12 @@ double DensityBoundBand::effect(const Layer& layer, const Off& off, std::size_t 
 
 void DensityBoundBand::share_out(double amount, int x, int y, int sheet) {
   std::array<double, 8> sums{};
-  const auto add = [&](int i, int j, int of) {
-    const Density& density = at(std::clamp(i, 0, width_ - 1), std::clamp(j, 0, height_ - 1), of);
-    for (std::size_t part = 0; part < sums.size(); ++part) sums[part] += density.errors[part];
-  };
-  for (const int by : {-1, 1}) add(x + by, y, sheet), add(x, y + by, sheet), add(x, y, sheet + by);
-  add(x, y, sheet);
+  const stages::Beside column = stages::beside(x, width_), row = stages::beside(y, height_);
+  for (const Density* one :
+       {&at(x, y, sheet), &at(column.before, y, sheet), &at(column.behind, y, sheet), &at(x, row.before, sheet),
+        &at(x, row.behind, sheet), &at(x, y, sheet - 1), &at(x, y, sheet + 1)}) {
+    for (std::size_t part = 0; part < sums.size(); ++part) sums[part] += one->errors[part];
+  }
   const double all = std::accumulate(sums.begin(), sums.end(), 0.0);
   if (!(all > 0.0)) return;
   for (std::size_t part = 0; part < sums.size(); ++part) terms_[kFirstTerm + part] += amount * sums[part] / all;

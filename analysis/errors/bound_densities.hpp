@@ -16,9 +16,7 @@ namespace fastsplat::analysis {
 
 class DensityBoundBand {
  public:
-  static constexpr int kHalo = 1;  ///< rows above and below the band whose densities are read
-
-  /// Keeps references. `splats` are binned by the first sheet that each may reach, with the halo.
+  /// Keeps references. `splats` are binned by the first sheet that each may reach, with DensityBand::kHalo.
   DensityBoundBand(const stages::Chain& chain, const stages::Mixture& known, const stages::Mixture& device,
                    const Roundings& roundings, const KnownSplats& splats, golden::Rows rows, int width);
 
@@ -63,8 +61,8 @@ class DensityBoundBand {
   stages::DensityRanges ranges_;
   std::vector<Density> densities_;  ///< by row of the band and its halo, column, sheet
   std::vector<Layer> of_pixel_;
-  std::vector<stages::ClassifiedRange> alone_,
-      together_;  ///< by sheet: of classification alone; with densities' errors
+  std::vector<stages::ClassifiedRange> alone_;     ///< by sheet: as if densities had no error
+  std::vector<stages::ClassifiedRange> together_;  ///< by sheet
   std::vector<PixelBound> pixels_;
   Terms terms_{};
 };

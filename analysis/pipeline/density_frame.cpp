@@ -90,12 +90,10 @@ DensityPixel DensityBand::pixel_of(const golden::SheetWindow& window, int x, int
     const double sum = sheet.row(j)[i][3];
     return frame_.golden_units ? frame_.densities.part_of_range(sum) : sum;
   };
-  const int left = std::max(x - 1, 0), right = std::min(x + 1, width_ - 1), above = std::max(y - 1, 0),
-            below = std::min(y + 1, height_ - 1);
-  const double across = density(window.here, right, y) - density(window.here, left, y),
-               down = density(window.here, x, below) - density(window.here, x, above);
+  const Beside column = beside(x, width_), row = beside(y, height_);
   return {.density = density(window.here, x, y),
-          .across = {x == left || x == right ? 2.0 * across : across, y == above || y == below ? 2.0 * down : down,
+          .across = {column.factor * (density(window.here, column.behind, y) - density(window.here, column.before, y)),
+                     row.factor * (density(window.here, x, row.behind) - density(window.here, x, row.before)),
                      density(window.behind, x, y) - density(window.before, x, y)},
           .x = x,
           .y = y,

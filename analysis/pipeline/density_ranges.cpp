@@ -47,27 +47,23 @@ DensityRanges::DensityRanges(const DensitySteps& steps, const Mixture& mixture) 
 }
 
 void DensityRanges::transfer(const Range& density, ClassifiedRange& out) const {
-  const auto take = [&](double at, bool first) {
+  const DensitySteps::Visible low = steps_.transfer(density.low, mixture_);
+  out.tau = {low.tau, low.tau};
+  for (std::size_t c = 0; c < 3; ++c) out.colour[c] = {low.colour[c], low.colour[c]};
+  const auto take = [&](double at) {
     const DensitySteps::Visible seen = steps_.transfer(at, mixture_);
-    if (first) {
-      out.tau = {seen.tau, seen.tau};
-      for (std::size_t c = 0; c < 3; ++c) out.colour[c] = {seen.colour[c], seen.colour[c]};
-      return;
-    }
     include(out.tau, seen.tau);
     for (std::size_t c = 0; c < 3; ++c) include(out.colour[c], seen.colour[c]);
   };
-  take(density.low, true);
-  take(density.high, false);
+  take(density.high);
   if (mixture_.device(Step::Transfer)) {
     const auto segments = static_cast<double>(steps_.classify_lines_.segments());
     const double last = std::min(density.high * segments, segments);
-    for (double entry = std::floor(density.low * segments) + 1.0; entry < last; entry += 1.0)
-      take(entry / segments, false);
+    for (double entry = std::floor(density.low * segments) + 1.0; entry < last; entry += 1.0) take(entry / segments);
     return;
   }
   for (const double bend : bends_) {
-    if (density.low < bend && bend < density.high) take(bend, false);
+    if (density.low < bend && bend < density.high) take(bend);
   }
   out.tau = widened(out.tau, kFloats);
   for (Range& colour : out.colour) colour = widened(colour, kFloats);

@@ -4,6 +4,7 @@
 // f fraction bits is a multiple of 2^-f. If all earlier steps are the device's, values are its words.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -29,6 +30,17 @@ struct DensityPixel {
   int x = 0, y = 0;  ///< of the image
   int sheet = 0;
 };
+
+/// The columns or rows beside one of `size`, and the factor of their difference: at the picture's edge the pixel itself
+/// stands for its neighbour, and the difference counts double (N-6.2-9).
+struct Beside {
+  int before, behind;
+  double factor;
+};
+inline Beside beside(int at, int size) {
+  const int before = std::max(at - 1, 0), behind = std::min(at + 1, size - 1);
+  return {before, behind, before == at || behind == at ? 2.0 : 1.0};
+}
 
 class DensitySteps {
  public:

@@ -39,8 +39,9 @@ bool CullTests::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, st
   const std::size_t windows = std::size_t{columns} * rows;
   if (all || windows == 1) return all;
   // Windows beyond the tile are hidden. The others are seen if no block is opaque there; else each is tested.
-  const PixelBox inside = unit_.windows().inside(box);
-  const bool seen = unit_.windows().seen(inside);
+  const CullTable& blocks = unit_.blocks();
+  const PixelBox inside = blocks.inside(box);
+  const bool seen = blocks.seen(inside);
   const auto first = static_cast<std::size_t>((inside.x0 - box.x0) / lanes_),
              last = static_cast<std::size_t>((inside.x1 - 1 - box.x0) / lanes_);
   const auto take = [&](bool one, std::size_t count) {
@@ -59,7 +60,7 @@ bool CullTests::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, st
     } else {
       for (std::size_t column = first; column <= last; ++column) {
         const std::int64_t left = box.x0 + static_cast<std::int64_t>(column) * lanes_;
-        take(unit_.window_hidden({left, top, left + lanes_, top + lanes_}), 1);
+        take(blocks.hidden({left, top, left + lanes_, top + lanes_}), 1);
       }
     }
     take(true, columns - 1 - last);

@@ -35,11 +35,8 @@ class CullUnit {
 
   /// Whether all cells that the rectangle meets in the tile are opaque.
   bool hidden(const PixelBox& box) const { return cells()[now_].hidden(box); }
-  /// The same for P x P blocks, whatever the map's cells (N-6.1-10).
-  bool window_hidden(const PixelBox& box) const { return windows().hidden(box); }
-
-  /// The table of P x P blocks that windows are tested against.
-  const CullTable& windows() const { return blocks_[now_]; }
+  /// The table of P x P blocks, whatever the map's cells: windows are tested against it (N-6.1-10).
+  const CullTable& blocks() const { return blocks_[now_]; }
 
   /// Block (bx,by) of the open sheet was composited; frozen(x, y): whether a pixel is terminated.
   template <class Frozen>

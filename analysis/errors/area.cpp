@@ -117,13 +117,17 @@ int dsp(int a, int b) {
   if (a < b) std::swap(a, b);
   return (a > 25 ? ceil_div(a - 25, 17) + 1 : 1) * (b > 18 ? ceil_div(b - 18, 17) + 1 : 1);
 }
-/// Of two unsigned words; small products are logic.
-int unsigned_dsp(int a, int b) { return a < 2 || b < 2 || a + b < 9 ? 0 : dsp(a + 1, b + 1); }
+/// Products of fewer bits are logic.
+constexpr int kLeastProduct = 9;
+/// Of two unsigned words.
+int unsigned_dsp(int a, int b) { return a < 2 || b < 2 || a + b < kLeastProduct ? 0 : dsp(a + 1, b + 1); }
 
 int multipliers(const Widths& w) {
   const int unit = w.unit + w.c.colour_int_bits;
   int all = w.banks * (4 * unsigned_dsp(w.colour, w.weight) +
-                       (w.c.interpolates() ? dsp(w.weight + 1, w.c.rlut_guard_bits + 1) : 0)) +
+                       (w.c.interpolates() && w.weight + w.c.rlut_guard_bits >= kLeastProduct
+                            ? dsp(w.weight + 1, w.c.rlut_guard_bits + 1)
+                            : 0)) +
             w.composited *
                 (unsigned_dsp(w.factor, w.rest) + 4 * unsigned_dsp(w.sheet, w.factor) + 4 * unsigned_dsp(unit, unit));
   if (w.densities) {  // a lane: interpolations of CLASSIFY, the gradient, three channels; 40 of fixed widths
@@ -165,6 +169,7 @@ std::vector<Part> parts(const Widths& w) {
                index = c.radial_index_bits(), product = 4.0 * std::min(w.sheet, w.colour + w.weight);
   const double ellipses = c.has_ellipses() ? 1 : 0, densities = w.densities, culls = w.culls, samples = w.samples;
   const double window = ellipses > 0 ? bits_for(std::max(c.rlut_columns, cmodel::kEllipseWindows * w.lanes)) : w.column;
+  const bool pixel_cells = c.cull_cell() == 1;  // they lie in a memory
   const bool rounds = c.rounding_product != 0 && c.colour_frac_bits + c.radial_frac_bits > c.sheet_frac_bits;
   return {
       {{"csr", "core", "popcount", "stream_check", "stream_decode", "record_rules", "word_rules", "overlap"},
@@ -183,15 +188,15 @@ std::vector<Part> parts(const Widths& w) {
         c.rounding_slab != 0 ? lane * 4 * d : 0, selected(w.factors)}},
       {{"composite_lane"},
        {lane * (12 * d + 6), lane * d, c.rounding_light != 0 ? lane * 4 * w.unit : 0, samples * lane * 4 * d}},
-      // Slices: registers of a block's earlier ones, and multiplexers that are assumed: no sample has any.
+      // Slices: registers of a block's earlier ones, and multiplexers.
       {{"compositor", "sample_places"},
-       {1, lane * (4 * d + 8) + (n - lane) * 4 * d + registered(w.picture), p,
-        n * 4 * d + (w.slices > 1 ? n * (s + d) / 2 : 0), samples * n * 4 * d, densities * lane * s,
-        selected(w.picture)}},
+       {1, lane * (4 * d + 8) + (n - lane) * 4 * d + registered(w.picture), p, n * 4 * d,
+        w.slices > 1 ? n * (s + d) : 0, samples * n * 4 * d, densities * lane * s, selected(w.picture)}},
       {{"pixel_out"}, {1, p * (4 * w.out + 5), p * 4 * d}},
       {{"dirty_map"}, {1, 2.0 * w.blocks, sides, p * sides}},
       {{"cull_map", "cull", "cull_pixels", "cull_sets", "cull_table", "cull_test", "cull_windows"},
-       {culls, culls * w.cull_words * w.cull_word, culls * 2 * w.blocks, c.cull_cell() == 1 ? culls * n : 0}},
+       {culls, culls * w.cull_words * w.cull_word, culls * w.blocks, pixel_cells ? 0 : culls * w.blocks,
+        pixel_cells ? culls * n : 0}},
       {{"delay"},
        {ellipses * (35 + 2 * w.position + w.radius + w.column + 2 * window + 4 * w.colour), densities * lane}},
       {{"ellipse_setup", "ellipse_walk", "ellipse"}, {e}},

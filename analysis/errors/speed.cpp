@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -201,11 +202,17 @@ std::vector<std::uint64_t> SpeedSearch::cycles(const SpeedKeys& keys, const Conf
     cluster.finish();
     out[i] = cluster.frame_cycles();
   };
-  std::vector<double> guess;
-  for (const FrameWork& frame : estimates) guess.push_back(frame.cycles(devices, device.slices()));
-  const auto slowest = static_cast<std::size_t>(std::ranges::max_element(guess) - guess.begin());
-  count(slowest);
-  if (1e6 * clock_mhz_ >= target * static_cast<double>(out[slowest])) parallel_for(scenes_.size(), threads_, count);
+  std::vector<std::pair<double, std::size_t>> order;  // the slowest by its estimate first
+  for (std::size_t i = 0; i < scenes_.size(); ++i)
+    order.emplace_back(-estimates[i].cycles(devices, device.slices()), i);
+  std::ranges::sort(order);
+  std::atomic<bool> slow = false;
+  parallel_for(order.size(), threads_, [&](std::size_t n) {
+    const std::size_t i = order[n].second;
+    if (slow) return;
+    count(i);
+    if (1e6 * clock_mhz_ < target * static_cast<double>(out[i])) slow = true;
+  });
   return out;
 }
 

@@ -87,8 +87,8 @@ class SpeedSearch {
   /// Windows of the slowest scene, at least: from those of 8 x 8 lanes and the largest tile. Smaller tiles cut more
   /// footprints, and narrower arrays pad them less.
   double windows_at_least(const SpeedKeys& keys);
-  /// Counted, by scene, the slowest by its estimate first; the others are 0 if it misses the target. Empty if a scene
-  /// cannot be drawn.
+  /// Counted, by scene, the slowest by its estimate first; once one misses the target, others may stay 0. Empty if a
+  /// scene cannot be drawn.
   std::vector<std::uint64_t> cycles(const SpeedKeys& keys, const cmodel::Config& device, int devices, double fps);
   /// Counted; stops at a total area of `price`.
   std::optional<Arrangement> counted(const SpeedKeys& keys, double fps, double price);

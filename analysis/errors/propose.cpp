@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "analysis/provenance.hpp"
@@ -75,10 +76,6 @@ bool Simulator::meets(const cmodel::Config& config, const Targets& targets) {
 
 namespace {
 
-/// Widths and arrangement in turn: the area of a bit depends on the array, and the best array on the widths. They
-/// mostly agree after two rounds.
-constexpr int kMostRounds = 6;
-
 /// Nothing to search: any picture is good enough.
 SearchOutcome as_it_is(const cmodel::Config& config) {
   SearchOutcome out;
@@ -103,11 +100,11 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
     const auto entry = simulate.worst(config);
     return entry ? Verdict{targets.met(*entry), targets.excess(*entry)} : Verdict{};
   };
-  const auto search = [&](const cmodel::Config& begin, const Price& price) {
+  const auto search = [&](const cmodel::Config& begin, const Price& price, const std::optional<Steps>& also = {}) {
     if (targets.pictures.empty()) return as_it_is(begin);
     return Search(begin, evaluate, price, progress,
                   [&](const cmodel::Config& config) { return simulate.meets(config, targets); })
-        .run();
+        .run(also);
   };
   if (!targets.fps) {
     out.search = search(from, [](const cmodel::Config& config) { return cost(config).total(); });
@@ -119,18 +116,34 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
     speed.from = speeds.least_devices(from, speed_keys(from), *targets.fps);
     out.search = as_it_is(from);
     speed.proposed = speeds.cheapest(from, *targets.fps);
-    for (int round = 0; round < kMostRounds && speed.proposed; ++round) {
-      const SpeedKeys keys = speed.proposed->keys;
+    // Widths and arrangement in turn, while the area falls: the area of a bit depends on the array, and the best array
+    // on the widths.
+    std::optional<Steps> known;
+    for (std::optional<Arrangement> next = std::exchange(speed.proposed, std::nullopt); next;) {
+      const SpeedKeys keys = next->keys;
       const auto begin = other_pixels ? arranged(from, keys) : from;
-      out.search = search(begin.value_or(from), [&](const cmodel::Config& config) {
-        const auto device = arranged(config, keys);
-        return device ? area(*device).equivalent_luts() : std::numeric_limits<double>::infinity();
-      });
-      if (!out.search.met) break;
-      speed.proposed = speeds.cheapest(out.search.best, *targets.fps);
-      if (speed.proposed && speed.proposed->keys == keys) break;
+      const SearchOutcome widths = search(
+          begin.value_or(from),
+          [&](const cmodel::Config& config) {
+            const auto device = arranged(config, keys);
+            return device ? area(*device).equivalent_luts() : std::numeric_limits<double>::infinity();
+          },
+          known);
+      if (!speed.proposed) out.search = widths;
+      if (!widths.met) {
+        if (!speed.proposed) speed.proposed = next;
+        break;
+      }
+      next = speeds.cheapest(widths.best, *targets.fps);
+      if (!next) break;
       // Pictures were judged with these keys.
-      if (round + 1 == kMostRounds) speed.proposed = speeds.least_devices(out.search.best, keys, *targets.fps);
+      const auto pair =
+          other_pixels && next->keys != keys ? speeds.least_devices(widths.best, keys, *targets.fps) : next;
+      if (!pair || (speed.proposed && pair->equivalent_luts() >= speed.proposed->equivalent_luts())) break;
+      out.search = widths;
+      known = widths.steps;
+      speed.proposed = pair;
+      if (next->keys == keys) break;
     }
     if (out.search.met && speed.proposed) {
       for (const double rate : {0.5 * *targets.fps, 2.0 * *targets.fps}) {

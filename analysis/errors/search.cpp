@@ -258,6 +258,7 @@ SearchOutcome Search::outcome(const Steps& steps) {
   SearchOutcome out;
   out.met = true;
   out.best = *turned(from_, steps);
+  out.steps = steps;
   out.verdict = *evaluate(steps);
   out.start = *turned(from_, begin_);
   for (std::size_t k = 0; k < knobs().size(); ++k) {
@@ -277,7 +278,13 @@ SearchOutcome Search::outcome(const Steps& steps) {
   return out;
 }
 
-SearchOutcome Search::run() {
+Steps Search::settle(Steps steps) {
+  steps = descend(std::move(steps));
+  while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
+  return steps;
+}
+
+SearchOutcome Search::run(const std::optional<Steps>& also) {
   const auto start = this->start();
   if (!start) {
     SearchOutcome out;
@@ -295,8 +302,11 @@ SearchOutcome Search::run() {
     return out;
   }
   lowest_alone(*start);
-  Steps steps = descend(combine(*start));
-  while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
+  Steps steps = settle(combine(*start));
+  if (also && meets(*also)) {
+    const Steps other = settle(*also);
+    if (price(other) < price(steps)) steps = other;
+  }
   return outcome(steps);
 }
 

@@ -85,8 +85,8 @@ TEST(ErrorsPropose, WritesAConfigurationThatIsSoundAndResumes) {
 
 TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   const TempFolder folder;
-  const Words scene{"--volume", "shells:12", "--size", "64"};  // two devices
-  const auto told = fastsplat(with(kPropose, with(scene, {"--target", "fps>=9500", "--clock", "100", "-o",
+  const Words scene{"--volume", "shells:16", "--size", "96"};  // two devices
+  const auto told = fastsplat(with(kPropose, with(scene, {"--target", "fps>=1200", "--clock", "100", "-o",
                                                           folder / "p.toml", "--json", folder / "p.json"})));
   expect_success(told);
   const Json speed = Json::parse(read_bytes(folder / "p.json")).at("speed"), &best = speed.at("proposed");
@@ -98,9 +98,9 @@ TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   EXPECT_EQ(scaling.at("frame_cycles"), best.at("cycles").at(0));
   EXPECT_EQ(scaling.at("fps"), best.at("fps"));
   EXPECT_NEAR(scaling.at("milliseconds"), best.at("milliseconds"), 1e-12);
-  EXPECT_GE(scaling.at("fps").get<double>(), 9500.0);
+  EXPECT_GE(scaling.at("fps").get<double>(), 1200.0);
   ASSERT_EQ(speed.at("others").size(), 2U);
-  for (const auto& [other, rate] : {std::pair{0, 4750.0}, {1, 19000.0}}) {
+  for (const auto& [other, rate] : {std::pair{0, 600.0}, {1, 2400.0}}) {
     EXPECT_EQ(speed.at("others")[other].at("target_fps"), rate);
     EXPECT_GE(speed.at("others")[other].at("fps"), rate);
   }
@@ -117,7 +117,7 @@ TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   const auto rates = numbers("fps  scene\n", 3);
   std::printf("[figure] printed: %.0f cycles, %.3f ms, %.2f fps\n", rates[0], rates[1], rates[2]);
   EXPECT_EQ(rates[0], scaling.at("frame_cycles"));
-  EXPECT_NEAR(rates[1], scaling.at("milliseconds"), 0.0005);
+  EXPECT_NEAR(rates[1], scaling.at("milliseconds"), 0.0005 + 1e-9);
   EXPECT_NEAR(rates[2], scaling.at("fps"), 0.005);
   // Areas are those of the configuration, times the devices, rounded to whole cells.
   for (const auto& [row, config] :
@@ -140,7 +140,7 @@ TEST(ErrorsPropose, FramesASecondOfTheResultAreThoseThatCyclesCounts) {
   const std::string devices = std::to_string(number) + (number == 1 ? " device" : " devices");
   EXPECT_NE(told.out.find(" fps with " + devices), std::string::npos) << told.out;
   const auto page = fastsplat({"report", folder / "p.json", "-o", folder / "p.html"});
-  EXPECT_NE((page.out + page.err).find("psnr>=40, fps>=9500 is met by " + devices), std::string::npos) << page.out;
+  EXPECT_NE((page.out + page.err).find("psnr>=40, fps>=1200 is met by " + devices), std::string::npos) << page.out;
 }
 
 TEST(ErrorsPropose, CtrlCLeavesAJournalThatIsGoneOnWith) {

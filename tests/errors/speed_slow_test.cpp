@@ -127,6 +127,7 @@ Neighbours widths(const std::vector<scene::Scene>& scenes, const Proposal& p) {
     ++out.tried;
     try {
       if (!near_enough(scenes, *config, p.targets)) return;
+      if (Counted(scenes, *config).fps(p.speed->proposed->devices) < *p.targets.fps) return;
     } catch (const UserError&) {
       return;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/frame_rate.hpp"
 #include "cli/frame_scaling.hpp"
 #include "cli/output.hpp"
 
@@ -102,12 +103,10 @@ std::string help(const FrameScaling& scaling) {
   return help_against_fill(scaling);
 }
 
-double milliseconds(const FrameScaling& scaling) {
-  return static_cast<double>(scaling.frame) / (1000.0 * *scaling.clock);
-}
-double frames_per_second(const FrameScaling& scaling) { return 1000.0 / milliseconds(scaling); }
+double milliseconds(const FrameScaling& scaling) { return frame_milliseconds(scaling.frame, *scaling.clock); }
+double fps(const FrameScaling& scaling) { return frames_per_second(scaling.frame, *scaling.clock); }
 double bytes_per_second(const FrameScaling& scaling, std::uint64_t bytes) {
-  return static_cast<double>(bytes) * frames_per_second(scaling);
+  return static_cast<double>(bytes) * fps(scaling);
 }
 
 std::string bytes_text(const FrameScaling& scaling, const char* name, std::uint64_t bytes) {
@@ -127,8 +126,7 @@ std::string to_text(const FrameScaling& scaling) {
   std::string text = fmt::format("{} {}\n", counted(scaling.devices, "device"), link);
   text += fmt::format("  {:<14}{:>18} cycles from reset to the last pixel", "frame", grouped(scaling.frame));
   if (scaling.clock)
-    text += fmt::format(", {:.4f} ms, {:.2f} fps at {:g} MHz", milliseconds(scaling), frames_per_second(scaling),
-                        *scaling.clock);
+    text += fmt::format(", {:.4f} ms, {:.2f} fps at {:g} MHz", milliseconds(scaling), fps(scaling), *scaling.clock);
   text +=
       "\n" + bytes_text(scaling, "stream in", scaling.bytes_in) + bytes_text(scaling, "pixels out", scaling.bytes_out);
   text += fmt::format("  {:<14}{:>18.3f} over one device like these ({} cycles)\n", "speed-up", scaling.speed_up(),
@@ -160,8 +158,7 @@ std::string to_table(const std::vector<FrameScaling>& scalings) {
                   clocked ? fmt::format("{:>12}{:>11}", "ms", "fps") : "", "speed-up", "efficiency", "limit");
   for (const auto& scaling : scalings) {
     const auto [name, cycles] = limit(scaling);
-    const std::string rate =
-        clocked ? fmt::format("{:>12.4f}{:>11.2f}", milliseconds(scaling), frames_per_second(scaling)) : "";
+    const std::string rate = clocked ? fmt::format("{:>12.4f}{:>11.2f}", milliseconds(scaling), fps(scaling)) : "";
     text += fmt::format("{:>7}{:>18}{}{:>11.3f}{:>11.1f} %  {}, {:.1f} %\n", scaling.devices, grouped(scaling.frame),
                         rate, scaling.speed_up(), 100.0 * scaling.efficiency(), name,
                         100.0 * ratio(cycles, scaling.device_cycles()));
@@ -177,7 +174,7 @@ Json to_json(const FrameScaling& scaling) {
   if (scaling.clock) {
     json["clock_mhz"] = *scaling.clock;
     json["milliseconds"] = milliseconds(scaling);
-    json["fps"] = frames_per_second(scaling);
+    json["fps"] = fps(scaling);
   }
   scaling.shares.for_each([&](const char* name, std::uint64_t cycles, const char*) { json["shares"][name] = cycles; });
   const auto [name, cycles] = limit(scaling);

@@ -69,7 +69,7 @@ Mapped mapped(const Memory& memory) {
 /// The widths of cmodel/rtl_package, and what decides cells.
 struct Widths {
   const Config& c;
-  int lanes = c.lanes, banks = lanes * lanes, composited = c.composited_at_once(), slices = c.slices();
+  int lanes = c.lanes, banks = lanes * lanes, composited = c.composited_at_once();
   int blocks_x = c.tile_width / lanes, blocks_y = c.tile_height / lanes, blocks = blocks_x * blocks_y;
   int address = bits_for(blocks - 1), origin = c.origin_bits();
   int position = c.position_int_bits + c.position_frac_bits, column = bits_for(c.rlut_columns),
@@ -188,10 +188,10 @@ std::vector<Part> parts(const Widths& w) {
         c.rounding_slab != 0 ? lane * 4 * d : 0, selected(w.factors)}},
       {{"composite_lane"},
        {lane * (12 * d + 6), lane * d, c.rounding_light != 0 ? lane * 4 * w.unit : 0, samples * lane * 4 * d}},
-      // Slices: registers of a block's earlier ones, and multiplexers.
+      // Slices: registers of a block's earlier ones. Their multiplexers cost no measurable LUT.
       {{"compositor", "sample_places"},
-       {1, lane * (4 * d + 8) + (n - lane) * 4 * d + registered(w.picture), p, n * 4 * d,
-        w.slices > 1 ? n * (s + d) : 0, samples * n * 4 * d, densities * lane * s, selected(w.picture)}},
+       {1, lane * (4 * d + 8) + (n - lane) * 4 * d + registered(w.picture), p, n * 4 * d, samples * n * 4 * d,
+        densities * lane * s, selected(w.picture)}},
       {{"pixel_out"}, {1, p * (4 * w.out + 5), p * 4 * d}},
       {{"dirty_map"}, {1, 2.0 * w.blocks, sides, p * sides}},
       {{"cull_map", "cull", "cull_pixels", "cull_sets", "cull_table", "cull_test", "cull_windows"},

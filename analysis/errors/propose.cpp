@@ -100,11 +100,11 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
     const auto entry = simulate.worst(config);
     return entry ? Verdict{targets.met(*entry), targets.excess(*entry)} : Verdict{};
   };
-  const auto search = [&](const cmodel::Config& begin, const Price& price, const std::optional<Steps>& also = {}) {
+  const auto search = [&](const cmodel::Config& begin, const Price& price) {
     if (targets.pictures.empty()) return as_it_is(begin);
     return Search(begin, evaluate, price, progress,
                   [&](const cmodel::Config& config) { return simulate.meets(config, targets); })
-        .run(also);
+        .run();
   };
   if (!targets.fps) {
     out.search = search(from, [](const cmodel::Config& config) { return cost(config).total(); });
@@ -118,30 +118,24 @@ Proposal propose(const std::vector<scene::Scene>& scenes, std::vector<std::strin
     speed.proposed = speeds.cheapest(from, *targets.fps);
     // Widths and arrangement in turn, while the area falls: the area of a bit depends on the array, and the best array
     // on the widths.
-    std::optional<Steps> known;
     for (std::optional<Arrangement> next = std::exchange(speed.proposed, std::nullopt); next;) {
       const SpeedKeys keys = next->keys;
       const auto begin = other_pixels ? arranged(from, keys) : from;
-      const SearchOutcome widths = search(
-          begin.value_or(from),
-          [&](const cmodel::Config& config) {
-            const auto device = arranged(config, keys);
-            return device ? area(*device).equivalent_luts() : std::numeric_limits<double>::infinity();
-          },
-          known);
+      const SearchOutcome widths = search(begin.value_or(from), [&](const cmodel::Config& config) {
+        const auto device = arranged(config, keys);
+        return device ? area(*device).equivalent_luts() : std::numeric_limits<double>::infinity();
+      });
       if (!speed.proposed) out.search = widths;
       if (!widths.met) {
         if (!speed.proposed) speed.proposed = next;
         break;
       }
       next = speeds.cheapest(widths.best, *targets.fps);
-      if (!next) break;
       // Pictures were judged with these keys.
       const auto pair =
-          other_pixels && next->keys != keys ? speeds.least_devices(widths.best, keys, *targets.fps) : next;
+          other_pixels && next && next->keys != keys ? speeds.least_devices(widths.best, keys, *targets.fps) : next;
       if (!pair || (speed.proposed && pair->equivalent_luts() >= speed.proposed->equivalent_luts())) break;
       out.search = widths;
-      known = widths.steps;
       speed.proposed = pair;
       if (next->keys == keys) break;
     }

@@ -6,6 +6,7 @@
 
 #include "analysis/errors/propose.hpp"
 #include "analysis/errors/suggestion.hpp"
+#include "base/frame_rate.hpp"
 #include "base/hash_text.hpp"
 
 namespace fastsplat::analysis {
@@ -31,8 +32,9 @@ std::string rates(const Proposal& p, const Arrangement& arrangement) {
   const double clock = p.speed->target.clock_mhz;
   std::string text = fmt::format("{:>14}{:>10}{:>9}  scene\n", "cycles", "ms", "fps");
   for (std::size_t i = 0; i < arrangement.cycles.size(); ++i) {
-    const double ms = static_cast<double>(arrangement.cycles[i]) / (1e3 * clock);
-    text += fmt::format("{:>14}{:>10.3f}{:>9.2f}  {}\n", arrangement.cycles[i], ms, 1e3 / ms, p.scenes[i]);
+    const std::uint64_t cycles = arrangement.cycles[i];
+    text += fmt::format("{:>14}{:>10.3f}{:>9.2f}  {}\n", cycles, frame_milliseconds(cycles, clock),
+                        frames_per_second(cycles, clock), p.scenes[i]);
   }
   return text;
 }
@@ -67,7 +69,7 @@ Json arrangement_json(const Arrangement& a, double clock_mhz) {
           {"cull_map", a.keys.cull_text()},
           {"cycles", a.cycles},
           {"fps", a.fps(clock_mhz)},
-          {"milliseconds", 1e3 / a.fps(clock_mhz)},
+          {"milliseconds", frame_milliseconds(a.slowest(), clock_mhz)},
           {"area",
            {{"lut", a.devices * a.area.lut},
             {"ff", a.devices * a.area.ff},

@@ -258,7 +258,6 @@ SearchOutcome Search::outcome(const Steps& steps) {
   SearchOutcome out;
   out.met = true;
   out.best = *turned(from_, steps);
-  out.steps = steps;
   out.verdict = *evaluate(steps);
   out.start = *turned(from_, begin_);
   for (std::size_t k = 0; k < knobs().size(); ++k) {
@@ -278,13 +277,7 @@ SearchOutcome Search::outcome(const Steps& steps) {
   return out;
 }
 
-Steps Search::settle(Steps steps) {
-  steps = descend(std::move(steps));
-  while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
-  return steps;
-}
-
-SearchOutcome Search::run(const std::optional<Steps>& also) {
+SearchOutcome Search::run() {
   const auto start = this->start();
   if (!start) {
     SearchOutcome out;
@@ -302,11 +295,8 @@ SearchOutcome Search::run(const std::optional<Steps>& also) {
     return out;
   }
   lowest_alone(*start);
-  Steps steps = settle(combine(*start));
-  if (also && meets(*also)) {
-    const Steps other = settle(*also);
-    if (price(other) < price(steps)) steps = other;
-  }
+  Steps steps = descend(combine(*start));
+  while (const auto cheaper = exchange(steps)) steps = descend(*cheaper);
   return outcome(steps);
 }
 

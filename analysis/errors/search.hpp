@@ -42,7 +42,6 @@ struct SearchOutcome {
   bool met = false;
   cmodel::Config best;  ///< if not met, the nearest one
   Verdict verdict;
-  Steps steps;                             ///< of `best`, from the configuration given
   cmodel::Config start;                    ///< where the descent began; met the target: `from` or finer
   std::vector<KeyOutcome> keys;            ///< in the order of knobs(); empty if not met
   std::optional<cmodel::Config> geometry;  ///< if not met: a change of the kept keys that would bring it nearer
@@ -55,8 +54,7 @@ class Search {
  public:
   /// Without `check`, `evaluate` is called.
   Search(const cmodel::Config& from, Evaluate evaluate, Price price, Progress progress = {}, Check check = {});
-  /// `also`: steps that meet the target, to descend from besides; the cheaper end is taken.
-  SearchOutcome run(const std::optional<Steps>& also = {});
+  SearchOutcome run();
 
  private:
   /// nullopt for an invalid configuration.
@@ -70,8 +68,6 @@ class Search {
   Steps cheapest_by_model(double budget) const;
   Steps combine(const Steps& start);
   Steps descend(Steps steps);
-  /// Lowered as far as single steps and exchanges do.
-  Steps settle(Steps steps);
   Steps finer_by_one(Steps steps, std::size_t but) const;
   std::optional<Steps> exchange(const Steps& steps);
   SearchOutcome outcome(const Steps& steps);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/frame_rate.hpp"
 #include "base/parallel/parallel.hpp"
 #include "cmodel/cycles/cycle_cluster.hpp"
 #include "cmodel/rtl_package/sv_package.hpp"
@@ -82,6 +83,8 @@ std::vector<SpeedKeys> speed_choices(const Config& config) {
   }
   return out;
 }
+
+double Arrangement::fps(double clock_mhz) const { return frames_per_second(slowest(), clock_mhz); }
 
 std::uint64_t Arrangement::slowest() const { return *std::ranges::max_element(cycles); }
 
@@ -211,7 +214,7 @@ std::vector<std::uint64_t> SpeedSearch::cycles(const SpeedKeys& keys, const Conf
     const std::size_t i = order[n].second;
     if (slow) return;
     count(i);
-    if (1e6 * clock_mhz_ < target * static_cast<double>(out[i])) slow = true;
+    if (frames_per_second(out[i], clock_mhz_) < target) slow = true;
   });
   return out;
 }

@@ -59,7 +59,7 @@ struct Arrangement {
 
   double equivalent_luts() const { return devices * area.equivalent_luts(); }  ///< of all devices
   std::uint64_t slowest() const;                                               ///< cycles of the slowest scene
-  double fps(double clock_mhz) const { return 1e6 * clock_mhz / static_cast<double>(slowest()); }
+  double fps(double clock_mhz) const;
 };
 
 class SpeedSearch {

@@ -21,6 +21,11 @@ std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode want
   return std::ranges::find(records, wanted, &Record::opcode)->at;
 }
 
+bool begins_frame(const cmodel::Beat& beat) {
+  return get(beat, cmodel::layout::kOpcode) == static_cast<std::int64_t>(cmodel::Opcode::BeginFrame) &&
+         get(beat, cmodel::layout::kFrameMagic) == std::int64_t{cmodel::kStreamMagic};
+}
+
 void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value) {
   beat[static_cast<std::size_t>(field.word)] &= ~field_mask(field);
   put(beat, field, value);

@@ -22,6 +22,8 @@ struct Record {
 std::vector<Record> records_of(const std::vector<cmodel::Beat>& beats);
 /// The beat of the first record of a kind that the stream has.
 std::size_t first_of(const std::vector<cmodel::Beat>& beats, cmodel::Opcode wanted);
+/// Whether fastsplat_top takes the beat behind a reset: it drops others (docs/integration.md).
+bool begins_frame(const cmodel::Beat& beat);
 /// Overwrites a field.
 void overwrite(cmodel::Beat& beat, const cmodel::Field& field, std::uint64_t value);
 

@@ -39,11 +39,6 @@ constexpr const char* kOtherBins[] = {"open_tile_is_ended",
                                       "soft_reset_while_a_picture_goes_out",
                                       "next_frame_offered_in_a_soft_reset"};
 
-bool begins_a_frame(const cmodel::Beat& beat) {
-  return get(beat, cmodel::layout::kOpcode) == static_cast<std::int64_t>(Opcode::BeginFrame) &&
-         get(beat, cmodel::layout::kFrameMagic) == std::int64_t{cmodel::kStreamMagic};
-}
-
 }  // namespace
 
 Coverage refusal_bins() {
@@ -189,7 +184,7 @@ DirectedResult check_damage(const cmodel::Config& config, const MakeDevice& make
     }
     // Behind a reset beats in front of a begin_frame are dropped (M-top-6).
     if (frames.device().sliced() && after_reset) {
-      const auto begin = std::ranges::find_if(damaged, begins_a_frame);
+      const auto begin = std::ranges::find_if(damaged, begins_frame);
       frames.device().drop({damaged.begin(), begin});
       damaged.erase(damaged.begin(), begin);
       if (damaged.empty()) continue;

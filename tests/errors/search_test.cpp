@@ -124,31 +124,6 @@ TEST(Search, EndsWhereNoKeyCanBeLoweredAndNoPairExchanged) {
   EXPECT_LE(most, 500);
 }
 
-// Steps of another search, by another price, are lowered too: the end is never dearer than they are.
-TEST(Search, DescendsFromOtherStepsToo) {
-  test::Random random(6);
-  const Config base = test::named_config("base");
-  int met = 0, cheaper = 0;
-  for (int n = 0; n < 20; ++n) {
-    Noises noises{std::vector<double>(freeze_knob(), 0.0), 0.0, 16.0};
-    for (double& weight : noises.weights) weight = std::ldexp(1.0, static_cast<int>(random.between(-4, 18)));
-    const SearchOutcome other =
-        Search(base, noises, [](const Config& config) { return 1.0 * config.radial_entries * bits(config, 3); }).run();
-    if (!other.met) continue;
-    ++met;
-    EXPECT_EQ(other.best, *turned(base, other.steps));
-    const SearchOutcome alone = Search(base, noises, price).run(), out = Search(base, noises, price).run(other.steps);
-    EXPECT_TRUE(noises(out.best).meets);
-    EXPECT_EQ(lowerable(out.best, noises), 0) << "formula " << n;
-    EXPECT_LE(price(out.best), price(other.best));
-    EXPECT_LE(price(out.best), price(alone.best));
-    cheaper += price(out.best) < price(alone.best) ? 1 : 0;
-  }
-  std::printf("[figure] searches = %d, cheaper by the other steps = %d\n", met, cheaper);
-  EXPECT_GE(met, 10);
-  EXPECT_GT(cheaper, 0);
-}
-
 /// If all noises are known, the best of all: with few keys, every combination is evaluated.
 TEST(Search, IsNearTheBestOfAllWhereThatCanBeKnown) {
   const Config base = test::named_config("base");

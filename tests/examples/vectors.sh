@@ -39,12 +39,15 @@ for file in new/*.txt; do
 done
 
 cp exponential.transcript good
-refused() { if check "new/exponential.txt" "$1"; then fail "$1: taken"; fi; }
 sed '$d' good >cut
 { cat good; echo "pixel 1 1 0"; } >longer
 sed '0,/^counter 16 .*/s//counter 16 1/' good >cycles
 : >empty
-for transcript in cut longer cycles empty; do refused "$transcript"; done
+refused=0
+for transcript in cut longer cycles empty; do
+  if check new/exponential.txt "$transcript"; then fail "$transcript: taken"; fi
+  refused=$((refused + 1))
+done
 if check empty empty; then fail "nothing was compared, and passed"; fi
 broken=0
 while read -r name fault; do
@@ -60,4 +63,4 @@ samples SAMPLE_ROW
 culled_blocks CULL_NEWER_MAP
 densities POST_HALO
 EOF
-echo "[figure] vectors passed by the RTL = $passed, broken devices found = $broken, broken transcripts refused = 5"
+echo "[figure] vectors passed by the RTL = $passed, broken devices found = $broken, broken transcripts refused = $refused"

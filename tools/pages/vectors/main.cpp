@@ -136,12 +136,12 @@ class PixelLines final : public cmodel::PixelSink {
   std::set<std::uint32_t> values_;
 };
 
-/// Lines of beats, pixels and counters; empty if the stream shows too little of its feature.
 struct Played {
-  std::string text;
+  std::string text;                        ///< lines of beats, pixels and counters
   int counted = 0, values = 0, drawn = 0;  ///< counters above 0, different words of pixels, pixels with a weight
 };
 
+/// Without text if the stream shows too little.
 Played play(const Config& config, const Beats& beats) {
   Played out;
   for (const Beat& beat : beats) out.text += "beat " + hex(beat) + "\n";
@@ -173,7 +173,7 @@ Played play(const Config& config, const Beats& beats) {
 
 /// Tiles of the feature's mode, side by side, cut to few sheets and records. Fewer tiles if there are not enough. Of
 /// four splats three lie between two phases.
-testbench::StreamDocument small_stream(const Feature& feature, const Config& config, std::uint64_t seed) {
+testbench::StreamDocument short_stream(const Feature& feature, const Config& config, std::uint64_t seed) {
   auto out = testbench::make_stimulus(config, testbench::StimulusClass::Mixed, seed, kSplats).document;
   std::erase_if(out.tiles, [&](const auto& tile) { return tile.begin.mode != feature.mode; });
   out.tiles.resize(std::min(out.tiles.size(), kTiles));
@@ -210,12 +210,13 @@ testbench::StreamDocument culled_stream(const Config& config, std::uint64_t seed
   return out;
 }
 
-/// The shortest stream that shows the feature; each counter above 0 and each different word is worth some characters.
+/// The shortest of some random streams. What a fault could change is worth some characters: each counter above 0, each
+/// different word, each pixel of a footprint.
 Beats stream_of(const Feature& feature, const Config& config, Played& best) {
   constexpr int kCounter = 400, kWord = 40, kPixel = 20;
   Beats out;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const auto document = config.culls() ? culled_stream(config, seed) : small_stream(feature, config, seed);
+    const auto document = config.culls() ? culled_stream(config, seed) : short_stream(feature, config, seed);
     if (document.tiles.size() < (config.culls() ? 1 : kTiles)) continue;
     const Beats beats = testbench::write_document(config, document);
     const Played played = play(config, beats);
@@ -230,13 +231,7 @@ Beats stream_of(const Feature& feature, const Config& config, Played& best) {
   return out;
 }
 
-/// fastsplat_top drops other beats behind a reset.
-bool begins_frame(const Beat& beat) {
-  return get(beat, cmodel::layout::kOpcode) == static_cast<std::int64_t>(cmodel::Opcode::BeginFrame) &&
-         get(beat, cmodel::layout::kFrameMagic) == std::int64_t{cmodel::kStreamMagic};
-}
-
-/// For each rule, a beat that the device refuses behind the first beats of the stream, of a kind that `shown` lacks.
+/// For each rule, a beat that the device refuses behind the first beats of the stream, not of a kind in `shown`.
 std::string refusals(const Config& config, const Beats& beats, std::set<std::string>& shown) {
   std::string asked, answered;
   std::set<cmodel::StreamRule> rules;
@@ -247,7 +242,7 @@ std::string refusals(const Config& config, const Beats& beats, std::set<std::str
     const auto refused = testbench::refused_by_model(config, broken);
     const auto differs = static_cast<std::size_t>(std::ranges::mismatch(beats, broken).in1 - beats.begin());
     if (!refused || refused->beat != differs) continue;
-    if (differs == 0 && !begins_frame(broken[0])) continue;
+    if (differs == 0 && !testbench::begins_frame(broken[0])) continue;
     rules.insert(violation.rule);
     shown.insert(violation.name);
     asked += fmt::format("refuse {} {}  # {}\n", differs, hex(broken[differs]), violation.name);

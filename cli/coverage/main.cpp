@@ -19,6 +19,7 @@
 #include "driver/tiles/compile.hpp"
 #include "report/report.hpp"
 #include "scene/scene.hpp"
+#include "testbench/closure/closure_lcov.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "testbench/closure/coverage_campaigns.hpp"
 #include "testbench/device/covered_registry.hpp"
@@ -203,6 +204,10 @@ ExitCode run(const std::vector<std::string>& arguments) {
   write_text_file(folder / "closure.md", tb::closure_markdown(report));
   write_text_file(folder / "closure.json", tb::closure_json(report));
   write_text_file(folder / "closure.html", page_of(folder / "closure.json"));
+  write_text_file(folder / "closure.info", tb::closure_info(report, kSource));
+  std::filesystem::create_directories(folder / "coverview");
+  for (const auto& [name, text] : tb::coverview_files(report, kSource))
+    write_text_file(folder / "coverview" / name, text);
   for (const auto* list : {&report.failures, &report.closure.findings, &report.lines.findings}) {
     for (const auto& line : *list) std::printf("open: %s\n", line.c_str());
   }

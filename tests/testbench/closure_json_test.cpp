@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_file.hpp"
+#include "testbench/closure/closure_lcov.hpp"
 #include "testbench/closure/closure_report.hpp"
 #include "tests/paths.hpp"
 
@@ -115,6 +116,40 @@ TEST(ClosureJson, HasEveryFigureOfTheClosure) {
   closed.closure.findings.clear();
   closed.lines.findings.clear();
   EXPECT_EQ(Json::parse(closure_json(closed))["verdict"], "closed");
+}
+
+TEST(ClosureJson, OtherViewersGetTheSameHits) {
+  const ClosureReport report = made();
+  const auto source = std::filesystem::temp_directory_path() / ("fastsplat-lcov-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(source / "rtl" / "sub");
+  std::filesystem::create_directories(source / "docs");
+  std::ofstream(source / "rtl" / "m.sv") << "module m;\n";
+  std::ofstream(source / "rtl" / "sub" / "n.sv") << "module n;\n";
+  std::ofstream(source / "docs" / "verification_plan.toml")
+      << "# plan\n[[testpoint]]\nname = \"hazards\"\n\nname = \"swap\"\n";
+  // Line 5's `if` is excused and left out; its `else` is not.
+  EXPECT_EQ(closure_info(report, source),
+            "TN:fastsplat\n"
+            "SF:rtl/m.sv\nBRDA:5,3,0,9\nBRDA:6,3,0,0\nDA:2,40000\nDA:3,40000\nend_of_record\n"
+            "SF:rtl/sub/n.sv\nDA:2,7\nend_of_record\n");
+  const auto files = coverview_files(report, source);
+  std::filesystem::remove_all(source);
+  EXPECT_EQ(files.at("branches.info"),
+            "TN:fastsplat\nSF:rtl/m.sv\nBRDA:5,3,else,9\nBRDA:6,3,else,0\nend_of_record\n"
+            "SF:rtl/sub/n.sv\nend_of_record\n");
+  EXPECT_EQ(files.at("bins.info"),
+            "TN:fastsplat\nSF:docs/verification_plan.toml\n"
+            "BRDA:3,0,tiny hazard.distance_1,0\nBRDA:3,0,tiny hazard.distance_2,1234567\n"
+            "BRDA:3,1,base hazard.distance_1,4\nBRDA:3,1,base hazard.distance_2,5\n"
+            "BRDA:5,0,tiny hazard.swap,3\nBRDA:5,1,base hazard.swap,6\nend_of_record\n");
+  EXPECT_NE(files.at("sources.txt").find("### FILE: rtl/sub/n.sv\nmodule n;\n"), std::string::npos);
+  // Every file that the archive's description names is in it.
+  std::size_t named = 0;
+  const Json config = Json::parse(files.at("config.json"));
+  for (const Json& set : config["datasets"]) {
+    for (const Json& file : set) named += files.contains(file.get<std::string>());
+  }
+  EXPECT_EQ(named, 3u);
 }
 
 TEST(ClosureJson, IsTheSampleOfTheBrowsersTest) {

@@ -9,6 +9,7 @@
 #include "base/images/encoding.hpp"
 #include "base/images/image_file.hpp"
 #include "base/version.hpp"
+#include "cli/coverage_difference.hpp"
 #include "cli/output.hpp"
 #include "cli/output_names.hpp"
 #include "cli/subcommands/subcommands.hpp"
@@ -212,9 +213,28 @@ Json to_json(const CompareResult& result) {
   return json;
 }
 
+/// Two coverage files: no limits and maps. Exit code 1 if a bin was lost.
+ExitCode compare_coverage(const CompareArguments& arguments, const Output& output) {
+  const std::string picture_flag = !arguments.map.empty() ? "--map" : !arguments.heat.empty() ? "--heat" : "";
+  const bool limited = arguments.min_psnr || arguments.max_lsb || arguments.max_mean_lsb || arguments.max_rmse_lsb ||
+                       arguments.max_bias_lsb || arguments.max_p99_lsb || arguments.min_ssim;
+  if (limited || !picture_flag.empty()) {
+    throw_usage({.where = limited ? "limits" : picture_flag,
+                 .what = "means nothing for coverage files",
+                 .expected = "pictures",
+                 .got = arguments.ref,
+                 .fix = "leave it out: a lost bin gives exit code 1 anyway"});
+  }
+  const CoverageDifference difference = coverage_difference(arguments.ref, arguments.test);
+  output.line(to_text(difference));
+  output.json(to_json(difference));
+  return difference.lost.empty() ? ExitCode::Pass : ExitCode::Failed;
+}
+
 ExitCode run(const CompareArguments& arguments) {
   const Output output(arguments.common);
   check(arguments);
+  if (is_coverage(arguments.ref) || is_coverage(arguments.test)) return compare_coverage(arguments, output);
   auto ref = images::read_image(arguments.ref);
   auto test = images::read_image(arguments.test);
   check_comparable(arguments, ref, test);
@@ -248,8 +268,8 @@ ExitCode run(const CompareArguments& arguments) {
 }
 
 void declare(Options& options, CompareArguments& to) {
-  options.positional("REF", to.ref, "the reference image");
-  options.positional("TEST", to.test, "the image under test");
+  options.positional("REF", to.ref, "the reference image, or the older coverage file");
+  options.positional("TEST", to.test, "the image under test, or the newer coverage file");
   options.group("Measure");
   options.integer("--lsb-bits", to.lsb_bits, 1, 24, "N", "one LSB is 1/(2^N - 1)");
   options.number("--peak", to.peak, "NUMBER", "peak value of the PSNR");
@@ -272,11 +292,13 @@ void declare(Options& options, CompareArguments& to) {
                   "the device's error against the reference; exit 1 beyond a limit");
   options.example("fastsplat compare golden.exr model.exr --map map.png --heat heat.png --json compare.json",
                   "where they differ, as pictures and as JSON");
+  options.example("fastsplat compare yesterday.json today.json", "bins of coverage that only one of the runs hit");
 }
 
 }  // namespace
 
-const Subcommand subcommands::compare{"compare", "compare two images: metrics in LSB and dB, maps, limits",
-                                      subcommand<CompareArguments, declare, run>};
+const Subcommand subcommands::compare{
+    "compare", "compare two images, or two coverage files: metrics in LSB and dB, maps, limits; bins lost and gained",
+    subcommand<CompareArguments, declare, run>};
 
 }  // namespace fastsplat::cli

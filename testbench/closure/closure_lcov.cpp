@@ -24,7 +24,7 @@ struct Tracefile {
   bool names = false;  ///< of branches: LCOV has numbers only
 };
 
-/// File -> its points, without those that are excused.
+/// File -> its points; excused ones are left out.
 std::map<std::string, std::vector<LinePoint>> points_by_file(const LineClosure& lines) {
   std::set<std::tuple<std::string, int, int, std::string>> excused;
   for (const LineFinding& found : lines.unreached) {

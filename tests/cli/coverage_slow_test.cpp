@@ -45,6 +45,44 @@ TEST(VerifyCoverage, AddsUpOverRuns) {
   EXPECT_NE(foreign.err.find("not a coverage file"), std::string::npos) << foreign.err;
 }
 
+TEST(VerifyCoverage, TwoFilesAreCompared) {
+  const TempFolder folder;
+  const auto run = [&](const char* which, const char* config, const std::string& file) {
+    return fastsplat({"verify", "--random", "50", "--class", which, "--config", config, "--coverage", folder / file});
+  };
+  ASSERT_EQ(run("hazards", "tiny", "old.json").code, 0);
+  ASSERT_EQ(run("saturation", "tiny", "new.json").code, 0);
+  const auto both = fastsplat({"compare", folder / "old.json", folder / "new.json", "--json", folder / "d.json"});
+  EXPECT_EQ(both.code, 1) << both.err;
+  // Counted here from the files.
+  const auto of = [&](const char* file, const char* campaign) {
+    return book(folder / file).at("campaigns").at(campaign).get<std::map<std::string, std::uint64_t>>();
+  };
+  const auto old_bins = of("old.json", "hazards"), new_bins = of("new.json", "saturation");
+  std::map<std::string, std::uint64_t> lost, gained;
+  for (const auto& [name, hits] : old_bins) {
+    if (hits > 0 && new_bins.at(name) == 0) lost[name] = hits;
+  }
+  for (const auto& [name, hits] : new_bins) {
+    if (hits > 0 && old_bins.at(name) == 0) gained[name] = hits;
+  }
+  std::printf("[figure] bins lost = %zu, gained = %zu (limit > 0)\n", lost.size(), gained.size());
+  EXPECT_GT(lost.size(), 0u);
+  EXPECT_GT(gained.size(), 0u);
+  const auto json = book(folder / "d.json");
+  EXPECT_EQ(json.at("lost"), nlohmann::json(lost));
+  EXPECT_EQ(json.at("gained"), nlohmann::json(gained));
+  EXPECT_NE(both.out.find("lost: " + std::to_string(lost.size()) + "\n"), std::string::npos) << both.out;
+  // Nothing is lost against a part of itself.
+  ASSERT_EQ(run("hazards", "tiny", "new.json").code, 0);
+  EXPECT_EQ(fastsplat({"compare", folder / "old.json", folder / "new.json"}).code, 0);
+  ASSERT_EQ(run("hazards", "small", "small.json").code, 0);
+  expect_error(fastsplat({"compare", folder / "old.json", folder / "small.json"}), 4,
+               {"small.json", "holds coverage of another configuration", "tiny", "small"});
+  expect_error(fastsplat({"compare", folder / "old.json", folder / "new.json", "--min-psnr", "40"}), 2,
+               {"limits", "means nothing for coverage files"});
+}
+
 // File, expected and found content, in that order, and the fix.
 TEST(VerifyCoverage, AnotherConfigurationsFileIsNamed) {
   const TempFolder folder;

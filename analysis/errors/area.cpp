@@ -138,7 +138,7 @@ int multipliers(const Widths& w) {
   if (w.culls && w.cull_word >= 9) ++all;  // cells of a window
   if (w.ellipse) {
     const int way = 11 + w.c.position_frac_bits;
-    all += 2 * dsp(23, way) + 2 * dsp(24, way) + 2 * dsp(26 + way, way);
+    all += 2 * dsp(23, way) + 2 * dsp(24, way) + 2 * dsp(25 + way, way);
     // Multiples of a lane's place: products by constants, powers of two apart.
     const auto constant = [&](int k) {
       return k == 0 || std::has_single_bit(static_cast<unsigned>(k)) ? 0 : dsp(w.ellipse + 1, bits_for(k) + 1);
@@ -147,7 +147,6 @@ int multipliers(const Widths& w) {
       all += 5 * constant(g) + 2 * constant(g * g);
       for (int h = 0; h < w.lanes; ++h) all += constant(g * h);
     }
-    if (w.lanes > 2) all += 2 * dsp(w.ellipse + 1, index_bits(w.lanes) + 1);
   }
   return all;
 }

@@ -111,11 +111,12 @@ void Model::splat(const SplatRecord& record, Unit& unit, Observer& observer) {
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
   if (cull_.on()) {
     Nothing nobody;
-    if (cull_.hidden(snap_(record.x, rho, nobody).origin, snap_(record.y, rho, nobody).origin, extent / lanes,
-                     extent / lanes)) {
+    const std::int32_t left = snap_(record.x, rho, nobody).origin, top = snap_(record.y, rho, nobody).origin;
+    if (cull_.hidden(left, top, extent / lanes, extent / lanes)) {
       ++counters_.splats;
       return;
     }
+    cull_.test_windows(left, top, extent / lanes, extent / lanes);
   }
   const SnappedAxis x = snap_(record.x, rho, observer);
   const SnappedAxis y = snap_(record.y, rho, observer);
@@ -151,10 +152,8 @@ void Model::ellipse(const EllipseRecord& record, Observer& observer) {
   }
   const EllipseCoefficients f = ellipse_.coefficients(record.shape, x.distance, y.distance);
   const auto lanes = static_cast<std::uint32_t>(config_.lanes);
-  std::size_t number = 0;
   for (std::uint32_t row = 0; row < record.windows.rows * lanes; row += lanes) {
     for (std::uint32_t column = 0; column < record.windows.columns * lanes; column += lanes) {
-      if (cull_.window_hidden(number++)) continue;
       ellipse_.window(f, column, row, radial_, weights_, observer);
       window(record, x.origin + static_cast<std::int32_t>(column), y.origin + static_cast<std::int32_t>(row), observer);
     }

@@ -14,8 +14,8 @@ module fastsplat_parameters ();
                   fastsplat_pkg::SLICES, fastsplat_pkg::BANKS / fastsplat_pkg::COMPOSITE_LANES)
   `FASTSPLAT_INIT(every_sample, fastsplat_pkg::EVERY_SAMPLE == 0 || fastsplat_pkg::SLICES == 1,
                   "EVERY_SAMPLE is %0d, but a block has %0d slices", fastsplat_pkg::EVERY_SAMPLE, fastsplat_pkg::SLICES)
-  `FASTSPLAT_INIT(culling, fastsplat_pkg::CULL_MAP == 0 || fastsplat_pkg::ELLIPSES + fastsplat_pkg::DENSITIES == 0,
-                  "CULL_MAP is %0d, but ELLIPSES + DENSITIES is %0d, not 0", fastsplat_pkg::CULL_MAP,
+  `FASTSPLAT_INIT(culling, fastsplat_pkg::CULL_MAP == 0 || fastsplat_pkg::DENSITIES == 0,
+                  "CULL_MAP is %0d, but DENSITIES is %0d, not 0", fastsplat_pkg::CULL_MAP,
                   fastsplat_pkg::ELLIPSES + fastsplat_pkg::DENSITIES)
   `FASTSPLAT_INIT(samples, fastsplat_pkg::EVERY_SAMPLE == 0 || fastsplat_pkg::DENSITIES == 0,
                   "EVERY_SAMPLE is %0d, but DENSITIES is %0d, not 0", fastsplat_pkg::EVERY_SAMPLE, fastsplat_pkg::DENSITIES)

@@ -31,9 +31,9 @@ struct CullCounts {
 };
 
 /// Answers of one tile's tests in the order of the stream: one for each cull_block and for each splat that is not
-/// dropped. A visible splat of several windows has one more for each of them, row by row. Also, for each sheet, the
-/// first row of blocks in which a cell became opaque; the number of rows if none did. Both are empty in a tile without
-/// tests.
+/// dropped. A visible splat (no ellipse) of several windows has one more for each of them, row by row. Also, for each
+/// sheet, the first row of blocks in which a cell became opaque; the number of rows if none did. Both are empty in a
+/// tile without tests.
 class CullAnswers {
  public:
   void add(bool hidden) { add(hidden, 1); }

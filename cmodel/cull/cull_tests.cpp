@@ -30,14 +30,17 @@ bool CullTests::dropped(std::uint32_t tag) {
 
 bool CullTests::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) {
   if (!on()) return false;
-  const PixelBox box{x, y, x + columns * lanes_, y + rows * lanes_};
-  const bool all = unit_.hidden(box);
+  const bool all = unit_.hidden(box_of_windows(x, y, columns, rows));
   ++counts_.splat_tests;
   counts_.hidden_splats += all ? 1 : 0;
   add(all);
   hidden_windows_.clear();
-  const std::size_t windows = std::size_t{columns} * rows;
-  if (all || windows == 1) return all;
+  return all;
+}
+
+void CullTests::test_windows(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) {
+  if (!on() || columns * rows == 1) return;
+  const PixelBox box = box_of_windows(x, y, columns, rows);
   // Windows beyond the tile are hidden. The others are seen if no block is opaque there; else each is tested.
   const CullTable& blocks = unit_.blocks();
   const PixelBox inside = blocks.inside(box);
@@ -65,7 +68,6 @@ bool CullTests::hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, st
     }
     take(true, columns - 1 - last);
   }
-  return false;
 }
 
 void CullTests::end_sheet() {

@@ -31,9 +31,11 @@ class CullTests {
   void cull_block(const CullBlock& record);
   /// Whether the next splat belongs to a hidden cull group; counts it as dropped.
   bool dropped(std::uint32_t tag);
-  /// Tests a splat: columns x rows windows from pixel (x,y) on. If it is not hidden, tests each window, too.
+  /// Tests a splat or ellipse: columns x rows windows from pixel (x,y) on.
   bool hidden(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
-  /// The result of one window, after hidden() returned false.
+  /// Tests each window of a splat, after hidden() returned false for it.
+  void test_windows(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows);
+  /// The result of one window of the last splat. An ellipse's are not tested (N-6.1-10), so none is hidden.
   bool window_hidden(std::size_t number) const { return !hidden_windows_.empty() && hidden_windows_[number] != 0; }
   /// CullUnit::composited().
   template <class Frozen>
@@ -43,6 +45,9 @@ class CullTests {
   void end_sheet();
 
  private:
+  PixelBox box_of_windows(std::int32_t x, std::int32_t y, std::uint32_t columns, std::uint32_t rows) const {
+    return {x, y, x + columns * lanes_, y + rows * lanes_};
+  }
   void add(bool hidden, std::size_t count = 1) {
     if (answers_ != nullptr) answers_->add(hidden, count);
   }
@@ -53,7 +58,7 @@ class CullTests {
   CullCounts counts_;
   CullLog* log_ = nullptr;
   CullAnswers* answers_ = nullptr;            ///< of the open tile, if it is logged
-  std::vector<std::uint8_t> hidden_windows_;  ///< of the last splat; empty if none is
+  std::vector<std::uint8_t> hidden_windows_;  ///< of the last splat; empty if none is or none was tested
 };
 
 }  // namespace fastsplat::cmodel

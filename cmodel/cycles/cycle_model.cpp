@@ -215,7 +215,8 @@ void CycleModel::load(const LoadTable& table) {
 
 void CycleModel::splat(const SplatRecord& record, std::uint64_t at) {
   const Set& set = sets_[record.set];
-  footprint(at, record.tag, snap_(record.x, set.rho).origin, snap_(record.y, set.rho).origin, set.extent, set.extent);
+  footprint(at, record.tag, snap_(record.x, set.rho).origin, snap_(record.y, set.rho).origin, set.extent, set.extent,
+            true);
 }
 
 void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
@@ -223,7 +224,7 @@ void CycleModel::ellipse(const EllipseRecord& record, std::uint64_t at) {
   footprint(at, record.tag, ellipse_axis(config_, record.x, windows.left).origin,
             ellipse_axis(config_, record.y, windows.top).origin,
             static_cast<std::int32_t>(windows.columns) * config_.lanes,
-            static_cast<std::int32_t>(windows.rows) * config_.lanes);
+            static_cast<std::int32_t>(windows.rows) * config_.lanes, false);
 }
 
 std::uint64_t CycleModel::issue(std::uint64_t at, std::int32_t x, std::int32_t y) {
@@ -237,7 +238,7 @@ std::uint64_t CycleModel::issue(std::uint64_t at, std::int32_t x, std::int32_t y
 }
 
 void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
-                           std::int32_t height) {
+                           std::int32_t height, bool tests_windows) {
   ++counters_.splats;
   const std::uint64_t windows =
       static_cast<std::uint64_t>(width / config_.lanes) * static_cast<std::uint64_t>(height / config_.lanes);
@@ -248,7 +249,7 @@ void CycleModel::footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, 
       hide(at);
       return;
     }
-    if (windows > 1) {
+    if (tests_windows && windows > 1) {
       if (answers_->any(answered_, windows)) return some_windows(at, tag, x, y, width, height);
       answered_ += windows;
     }

@@ -157,9 +157,9 @@ class CycleModel final : public Device {
   void ellipse(const EllipseRecord& record, std::uint64_t at);
   /// The cycle in which a record's first window, at (x,y), is issued; accounts for its wait (every sample).
   std::uint64_t issue(std::uint64_t at, std::int32_t x, std::int32_t y);
-  /// Accounts for a splat's windows, the first at (x,y): width x height pixels.
+  /// Accounts for a splat's windows, the first at (x,y): width x height pixels. An ellipse's are not tested.
   void footprint(std::uint64_t at, std::uint32_t tag, std::int32_t x, std::int32_t y, std::int32_t width,
-                 std::int32_t height);
+                 std::int32_t height, bool tests_windows);
   void load(const LoadTable& table);
   void begin_tile(const BeginTile& record, std::uint64_t at);
   void begin_sheet(const BeginSheet& record, std::uint64_t at);

@@ -44,7 +44,7 @@ std::optional<FrameTables> frame_tables(const Config& config, std::span<const Be
   const auto plan = fast_plan(config, why_not);
   if (!plan) return {};
   if (!has_vectors()) return none("this processor lacks the required vector instructions");
-  if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device culls their windows");
+  if (needs.ellipses && config.culls()) return none("splats are ellipses, and the device culls them");
   if (needs.ellipses && config.interpolates()) return none("splats are ellipses, and weights are interpolated");
   if (needs.tints) return none("sheets are tinted by a pattern");
   const auto samples = sample_plan(config, *plan, needs.samples ? why_not : nullptr);

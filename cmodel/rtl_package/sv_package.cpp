@@ -83,13 +83,6 @@ std::optional<ErrorParts> rtl_violation(const Config& config) {
     return refuse("sheet.int_bits", "the RTL's transfer function must fall by less than 2^7 between two entries",
                   "at most " + std::to_string(kDensityMostInt) + " with classify.segment_bits", config.sheet_int_bits);
   }
-  if (config.culls() && config.has_ellipses()) {
-    return ErrorParts{.where = "cull.map",
-                      .what = "the RTL cannot skip windows of an ellipse",
-                      .expected = "off if ellipse.frac_bits is above 0",
-                      .got = text_of(config, *find_key("cull.map")),
-                      .fix = "use the model for this configuration"};
-  }
   if (config.has_ellipses() && config.position_frac_bits < 1)
     return refuse("position.frac_bits", "the RTL's ellipses need a fraction bit", "at least 1",
                   config.position_frac_bits);

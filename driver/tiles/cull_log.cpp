@@ -71,7 +71,8 @@ class Tester {
   void take(const cmodel::SplatRecord& splat) {
     if (tests_.dropped(splat.tag)) return;
     const Set& set = extents_[splat.set];
-    tests_.hidden(snap_(splat.x, set.rho).origin, snap_(splat.y, set.rho).origin, set.windows, set.windows);
+    const std::int32_t x = snap_(splat.x, set.rho).origin, y = snap_(splat.y, set.rho).origin;
+    if (!tests_.hidden(x, y, set.windows, set.windows)) tests_.test_windows(x, y, set.windows, set.windows);
   }
   void take(const cmodel::EllipseRecord& splat) {
     if (tests_.dropped(splat.tag)) return;

@@ -75,10 +75,11 @@ module fastsplat_cull_test (
   assign idle_o = valid_q == '0;
 
   logic [7:0] opcode;  // t0
-  logic is_set, is_splat;
+  logic is_set, is_ellipse, is_splat;  // splat: a circle or an ellipse
   assign opcode = beat_q[0][7:0];
   assign is_set = opcode == fastsplat_pkg::OP_CULL_BLOCK;
-  assign is_splat = opcode == fastsplat_pkg::OP_SPLAT;
+  assign is_ellipse = fastsplat_pkg::ELLIPSES != 0 && opcode == fastsplat_pkg::OP_ELLIPSE;
+  assign is_splat = opcode == fastsplat_pkg::OP_SPLAT || is_ellipse;
 
   // ---- t0: where in the frame the beat stands
   logic [fastsplat_pkg::RHO_BITS-1:0] rho_q[0:fastsplat_pkg::RLUT_SETS-1];
@@ -127,15 +128,28 @@ module fastsplat_cull_test (
   // ---- t0: a splat's first pixel, snapped on its way in
   logic fresh_q;
   logic [fastsplat_pkg::RHO_BITS-1:0] rho_in;
-  logic signed [ORG-1:0] snapped_x, snapped_y, held_x_q, held_y_q, x, y;
+  logic signed [ORG-1:0] snapped_x, snapped_y, corner_x, corner_y, held_x_q, held_y_q, x, y;
   logic [fastsplat_pkg::PHASE_BITS-1:0] phase_x, phase_y;
   logic saturated_x, saturated_y;
   localparam logic [COL-1:0] NO_COLUMN = '0;
   assign rho_in = rho_q[data_i[8+:SET]];
   fastsplat_snap u_snap_x (.clk_i, .centre_i(data_i[64+:PB]), .rho_i(rho_in), .column_i(NO_COLUMN), .origin_o(snapped_x), .phase_o(phase_x), .saturated_o(saturated_x));
   fastsplat_snap u_snap_y (.clk_i, .centre_i(data_i[96+:PB]), .rho_i(rho_in), .column_i(NO_COLUMN), .origin_o(snapped_y), .phase_o(phase_y), .saturated_o(saturated_y));
-  assign x = fresh_q ? snapped_x : held_x_q;
-  assign y = fresh_q ? snapped_y : held_y_q;
+  // An ellipse's is in its record, relative to the pixel of its centre.
+  if (fastsplat_pkg::ELLIPSES != 0) begin : gen_ellipse
+    localparam int PF = fastsplat_pkg::POS_FRAC;
+    logic signed [PB-1:0] centre_x, centre_y;
+    assign centre_x = data_i[64+:PB];
+    assign centre_y = data_i[96+:PB];
+    always_ff @(posedge clk_i) begin
+      corner_x <= ORG'(32'(centre_x) >>> PF) + (`FASTSPLAT_FAULT(CULL_ELLIPSE) ? '0 : ORG'($signed(data_i[214+:10])));
+      corner_y <= ORG'(32'(centre_y) >>> PF) + ORG'($signed(data_i[246+:10]));
+    end
+  end else begin : gen_circles
+    assign {corner_x, corner_y} = '0;
+  end
+  assign x = !fresh_q ? held_x_q : is_ellipse ? corner_x : snapped_x;
+  assign y = !fresh_q ? held_y_q : is_ellipse ? corner_y : snapped_y;
   always_ff @(posedge clk_i) begin
     fresh_q <= ready_o;
     held_x_q <= x;
@@ -145,12 +159,15 @@ module fastsplat_cull_test (
   // ---- t0 to t1: the rectangle, clipped, in cells
   logic signed [XB-1:0] left, right, top, bottom, width, height;
   logic [COL-1:0] padded;
+  logic [15:0] side_x, side_y;  // pixels
   logic [SIDE-1:0] x0, x1, y0, y1;
   assign padded = padded_q[beat_q[0][8+:SET]];
   assign left = is_set ? XB'($signed(beat_q[0][64+:32])) : XB'(x);
   assign top = is_set ? XB'($signed(beat_q[0][96+:32])) : XB'(y);
-  assign right = left + $signed(is_set ? XB'(beat_q[0][128+:16]) : XB'(padded));
-  assign bottom = top + $signed(is_set ? XB'(beat_q[0][144+:16]) : XB'(padded));
+  assign side_x = is_set ? beat_q[0][128+:16] : is_ellipse ? (16'(beat_q[0][86+:5]) + 16'd1) << fastsplat_pkg::LANE_LOG2 : 16'(padded);
+  assign side_y = is_set ? beat_q[0][144+:16] : is_ellipse ? (16'(beat_q[0][91+:5]) + 16'd1) << fastsplat_pkg::LANE_LOG2 : 16'(padded);
+  assign right = left + $signed(XB'(side_x));
+  assign bottom = top + $signed(XB'(side_y));
   assign width = $signed(XB'(width_q));
   assign height = $signed(XB'(height_q));
   assign x0 = left[XB-1] ? '0 : left[SIDE-1:0];
@@ -226,7 +243,7 @@ module fastsplat_cull_test (
   // ---- t3: which cull group a splat belongs to
   logic of_set, of_splat, set_hidden;
   assign of_set = test_q[3] && data_o[7:0] == fastsplat_pkg::OP_CULL_BLOCK;
-  assign of_splat = test_q[3] && data_o[7:0] == fastsplat_pkg::OP_SPLAT;
+  assign of_splat = test_q[3] && !of_set;
   fastsplat_cull_sets u_sets (
       .clk_i,
       .rst_ni,

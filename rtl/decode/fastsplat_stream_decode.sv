@@ -318,7 +318,8 @@ module fastsplat_stream_decode (
   end
 
   // ---- next window: each of the footprint's, or only the visible ones
-  logic last_row_next;
+  logic last_column_next, last_row_next;  // of a walk through all windows
+  assign last_column_next = (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
   assign last_row_next = (WIN + 1)'(row_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_y);
   if (fastsplat_pkg::CULL_MAP != 0) begin : gen_seen
     localparam int NW = fastsplat_pkg::WINDOWS_X;
@@ -353,7 +354,7 @@ module fastsplat_stream_decode (
     assign issues = is_splat && !wait_hazard && seen_q != '0;
     assign window_first = !issued_q;
     assign event_hidden_o = accepted && is_splat && hidden_q && !swallowed_q;
-    assign event_hidden_windows_o = (is_splat && new_row_q && !gone_q) ? there_q[set] & ~seen_q : '0;
+    assign event_hidden_windows_o = (is_splat && new_row_q && !gone_q && !is_ellipse) ? there_q[set] & ~seen_q : '0;
     always_ff @(posedge clk_i) begin
       new_row_q <= new_row;
       if (accepted && opcode == fastsplat_pkg::OP_LOAD_TABLE && w0[15:8] == fastsplat_pkg::TABLE_RLUT)
@@ -367,7 +368,7 @@ module fastsplat_stream_decode (
         x_q <= x_i;
         y_q <= y_i;
         row_q <= '0;
-        last_row_q <= swallowed_i || hidden_i || single_q[data_i[8+:fastsplat_pkg::SET_BITS]];
+        last_row_q <= swallowed_i || hidden_i || (ellipse_next ? data_i[91+:5] == '0 : single_q[data_i[8+:fastsplat_pkg::SET_BITS]]);
         issued_q <= 1'b0;
       end else begin
         if (issues) issued_q <= 1'b1;
@@ -382,12 +383,19 @@ module fastsplat_stream_decode (
         seen_q <= next;
         column_q <= column;
         last_column_q <= (next & (next - NW'(1))) == '0;
+        // Windows of an ellipse are not tested (N-6.1-10): all of them follow, from the row's first on.
+        if (enters ? ellipse_next : is_ellipse) begin
+          seen_q <= NW'(!(enters && (swallowed_i || hidden_i)));
+          column_q <= new_row ? '0 : column_q + WIN'(P);
+          last_column_q <= enters ? swallowed_i || hidden_i || data_i[86+:5] == '0 :
+                           new_row ? one_column : last_column_next;
+        end
       end
     end
     logic unused_way;
-    assign unused_way = &{1'b0, one_column, extent_x};
+    assign unused_way = &{1'b0, one_column, last_column_next};
     `FASTSPLAT_ASSERT(seen_splat_has_windows, !(take && is_splat && !gone_q) || issued_q || issues)
-    `FASTSPLAT_ASSERT(last_column_foretold, !is_splat || (last_column_q == (rest == '0) && (gone_q || last_row_q == (row_q + WIN'(P) >= extent_y))))
+    `FASTSPLAT_ASSERT(last_column_foretold, !is_splat || (last_column_q == (is_ellipse ? gone_q || column_q + WIN'(P) >= extent_x : rest == '0) && (gone_q || last_row_q == (row_q + WIN'(P) >= extent_y))))
   end else begin : gen_all
     assign issues = is_splat && !wait_hazard;
     assign window_first = column_q == '0 && row_q == '0;
@@ -404,7 +412,7 @@ module fastsplat_stream_decode (
         column_q <= last_column_q ? '0 : column_q + WIN'(P);
         if (last_column_q) row_q <= last_window ? '0 : row_q + WIN'(P);
         if (!last_window) begin  // then there are at least two columns or two rows, of a circle both
-          last_column_q <= last_column_q ? one_column : (WIN + 1)'(column_q) + (WIN + 1)'(2 * P) >= (WIN + 1)'(extent_x);
+          last_column_q <= last_column_q ? one_column : last_column_next;
           if (last_column_q) last_row_q <= last_row_next;
         end
       end

@@ -8,7 +8,7 @@ namespace {
 
 /// Offsets from the first bin of each kind, as they are declared.
 enum SetBin { SetHidden, SetSeen, SetOfNone, SetBeside, SetAcrossHidden, SetAcrossSeen, SetWithoutMap };
-enum SplatBin { SplatHidden, SplatSeen, SplatOfHiddenSet };
+enum SplatBin { SplatHidden, SplatSeen, SplatOfHiddenSet };  // of ellipses, too
 enum WindowBin { WindowsSome, WindowsNone };
 enum MapBin { MapUnchanged, MapChanged, MapFromALaterRow };
 
@@ -24,6 +24,7 @@ CullCoverage::CullCoverage(const cmodel::Config& config, Coverage& coverage)
   set_ = declare({"set_hidden", "set_seen", "set_of_no_splat", "set_beside_the_tile", "set_across_the_edge_hidden",
                   "set_across_the_edge_seen", "set_before_there_is_a_map"});
   splat_ = declare({"splat_hidden", "splat_seen", "splat_of_a_hidden_set"});
+  if (config.has_ellipses()) ellipse_ = declare({"ellipse_hidden", "ellipse_seen", "ellipse_of_a_hidden_set"});
   window_ = declare({"windows_some_hidden", "windows_none_hidden"});
   map_ = declare({"map_unchanged_by_a_sheet", "map_changed_from_the_first_row", "map_changed_from_a_later_row"});
   jump_ = declare({"tag_jump"});
@@ -38,11 +39,17 @@ void CullCoverage::after(const cmodel::Record& record, const cmodel::CullCounts&
   if (cmodel::culls_in(tile_.mode)) {
     if (const auto* block = std::get_if<cmodel::CullBlock>(&record))
       set(*block, found.hidden_sets > before_.hidden_sets);
-    if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) splat(one->tag, found);
+    if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) {
+      splat(splat_, one->tag, found);
+      if (found.dropped == before_.dropped && found.hidden_splats == before_.hidden_splats)
+        coverage_.hit(window_ + (found.hidden_windows > before_.hidden_windows ? WindowsSome : WindowsNone));
+    }
+    if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) splat(ellipse_, one->tag, found);
     const cmodel::CullAnswers* answers = log.find(tile_.tile);
     if (std::holds_alternative<cmodel::EndSheet>(record) && answers != nullptr) sheet(*answers);
   }
   if (const auto* one = std::get_if<cmodel::SplatRecord>(&record)) next_tag_ = one->tag + 1;
+  if (const auto* one = std::get_if<cmodel::EllipseRecord>(&record)) next_tag_ = one->tag + 1;
   before_ = found;
 }
 
@@ -57,16 +64,11 @@ void CullCoverage::set(const cmodel::CullBlock& set, bool hidden) {
   if (!beside && sheets_ < 2) coverage_.hit(set_ + SetWithoutMap);
 }
 
-void CullCoverage::splat(std::uint32_t tag, const cmodel::CullCounts& found) {
+void CullCoverage::splat(Id bins, std::uint32_t tag, const cmodel::CullCounts& found) {
   if (tag != next_tag_ && tag > next_tag_) coverage_.hit(jump_);
-  if (found.dropped > before_.dropped) {
-    coverage_.hit(splat_ + SplatOfHiddenSet);
-  } else if (found.hidden_splats > before_.hidden_splats) {
-    coverage_.hit(splat_ + SplatHidden);
-  } else {
-    coverage_.hit(splat_ + SplatSeen);
-    coverage_.hit(window_ + (found.hidden_windows > before_.hidden_windows ? WindowsSome : WindowsNone));
-  }
+  coverage_.hit(bins + (found.dropped > before_.dropped               ? SplatOfHiddenSet
+                        : found.hidden_splats > before_.hidden_splats ? SplatHidden
+                                                                      : SplatSeen));
 }
 
 void CullCoverage::sheet(const cmodel::CullAnswers& answers) {

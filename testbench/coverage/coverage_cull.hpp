@@ -26,7 +26,8 @@ class CullCoverage {
  private:
   using Id = Coverage::Id;
   void set(const cmodel::CullBlock& set, bool hidden);
-  void splat(std::uint32_t tag, const cmodel::CullCounts& found);
+  /// `bins`: those of circles or of ellipses.
+  void splat(Id bins, std::uint32_t tag, const cmodel::CullCounts& found);
   void sheet(const cmodel::CullAnswers& answers);
 
   Coverage& coverage_;
@@ -35,7 +36,7 @@ class CullCoverage {
   std::size_t sheets_ = 0;      ///< of the tile, ended
   std::uint32_t next_tag_ = 0;  ///< behind the last splat
   cmodel::CullCounts before_;
-  Id set_ = 0, splat_ = 0, window_ = 0, map_ = 0, jump_ = 0, waits_ = 0;
+  Id set_ = 0, splat_ = 0, ellipse_ = 0, window_ = 0, map_ = 0, jump_ = 0, waits_ = 0;
 };
 
 }  // namespace fastsplat::testbench

@@ -46,7 +46,7 @@ TEST(StimulusWords, AreTheSameUnderEveryCompiler) {
   };
   for (const auto& [name, recorded] :
        {Recorded{"tiny", 0x13fe58f25affc8cb}, Recorded{"faults/mustfail", 0x237823cc73ae7fad},
-        Recorded{"faults/westover", 0x0f6f2b36ff5ba5a4}, Recorded{"faults/cull", 0x6b7e0813b8c9cc58},
+        Recorded{"faults/westover", 0x0f6f2b36ff5ba5a4}, Recorded{"faults/cull", 0xca6e570d6726e1d8},
         Recorded{"faults/post", 0x96bd35aa8ae3e67f}}) {
     const std::uint64_t hash = words_of(test::named_config(name));
     std::printf("[figure] words of %s = 0x%016llx\n", name, static_cast<unsigned long long>(hash));

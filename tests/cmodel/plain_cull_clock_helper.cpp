@@ -125,9 +125,7 @@ std::vector<Item> items_of(const cmodel::Config& config, std::span<const cmodel:
         rows = (extent + lanes - 1) / lanes;
         if (rows > 1 && mode < 2) answer += rows * rows;
       } else {
-        const auto& shaped = std::get<cmodel::EllipseRecord>(record).windows;
-        rows = shaped.rows;
-        if (shaped.rows * shaped.columns > 1 && mode < 2) answer += std::size_t{shaped.rows} * shaped.columns;
+        rows = std::get<cmodel::EllipseRecord>(record).windows.rows;  // its windows have no answers (N-6.1-10)
       }
       item.cycles = all + rows - seen.size();  // M-cull-6: of windows that are issued (M-cull-7), and of empty rows
     };

@@ -31,9 +31,8 @@ refused RADIAL_ENTRIES=63 "RADIAL_ENTRIES is 63, but 2^RADIAL_LOG2 is 64"
 refused BLOCKS_Y=17 "BLOCKS is 256, but BLOCKS_X \* BLOCKS_Y is 272"
 refused RLUT_COLUMNS=15 "RLUT_COLUMNS is 15, but must be a multiple of 2"
 refused SLICES=2 "SLICES is 2, but 1 of COMPOSITE_LANES pixels make a block"
-# M-cull-1, M-density-2
-refused CULL_MAP=1 "CULL_MAP is 1, but ELLIPSES + DENSITIES is 1, not 0" ellipse
-refused CULL_MAP=2 "CULL_MAP is 2, but ELLIPSES + DENSITIES is 2, not 0" faults/post
-refused DENSITIES=1 "CULL_MAP is 1, but ELLIPSES + DENSITIES is 1, not 0" faults/cull
+# M-density-2
+refused CULL_MAP=2 "CULL_MAP is 2, but DENSITIES is 2, not 0" faults/post
+refused DENSITIES=1 "CULL_MAP is 1, but DENSITIES is 1, not 0" faults/cull
 refused DENSITIES=1 "EVERY_SAMPLE is 1, but DENSITIES is 1, not 0" faults/westover
-[ "$checked" -eq 10 ]
+[ "$checked" -eq 9 ]

@@ -60,6 +60,7 @@ Json to_json(const std::vector<testbench::CoverBin>& bins) {
 }  // namespace
 
 bool is_coverage(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;  // a pipe can be read once
   std::ifstream file(path);
   std::string head(64, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -16,7 +16,7 @@ module fastsplat_parameters ();
                   "EVERY_SAMPLE is %0d, but a block has %0d slices", fastsplat_pkg::EVERY_SAMPLE, fastsplat_pkg::SLICES)
   `FASTSPLAT_INIT(culling, fastsplat_pkg::CULL_MAP == 0 || fastsplat_pkg::DENSITIES == 0,
                   "CULL_MAP is %0d, but DENSITIES is %0d, not 0", fastsplat_pkg::CULL_MAP,
-                  fastsplat_pkg::ELLIPSES + fastsplat_pkg::DENSITIES)
+                  fastsplat_pkg::DENSITIES)
   `FASTSPLAT_INIT(samples, fastsplat_pkg::EVERY_SAMPLE == 0 || fastsplat_pkg::DENSITIES == 0,
                   "EVERY_SAMPLE is %0d, but DENSITIES is %0d, not 0", fastsplat_pkg::EVERY_SAMPLE, fastsplat_pkg::DENSITIES)
   `FASTSPLAT_INIT(blocks, fastsplat_pkg::BLOCKS == fastsplat_pkg::BLOCKS_X * fastsplat_pkg::BLOCKS_Y,

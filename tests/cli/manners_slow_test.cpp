@@ -214,6 +214,11 @@ TEST(Examples, AllRun) {
                "kind = \"compare\"\n[constants]\nvolume = \"shells:16\"\nsize = 32\n[axes]\n"
                "snap.phases = [16, 64]\nradial.entries = [64, 1024]\n");
   fs::create_directory(folder.path() / "results");
+  for (const char* day : {"yesterday.json", "today.json"}) {
+    folder.write(
+        day, R"({"format": "fastsplat coverage 1", "config": "tiny", "config_hash": "1", "streams": 1, "splats": 1,)"
+             R"( "comparisons": 1, "cycles": 1, "campaigns": {"hazards": {"hazard.distance_1": 1}}})");
+  }
   const bool scans = fastsplat({"volume", "info", "ch2bet"}).code == 0;
   int ran = 0, slow = 0, skipped = 0;
   for (const auto& subcommand : cli::describe()) {

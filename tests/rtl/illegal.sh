@@ -32,7 +32,7 @@ refused BLOCKS_Y=17 "BLOCKS is 256, but BLOCKS_X \* BLOCKS_Y is 272"
 refused RLUT_COLUMNS=15 "RLUT_COLUMNS is 15, but must be a multiple of 2"
 refused SLICES=2 "SLICES is 2, but 1 of COMPOSITE_LANES pixels make a block"
 # M-density-2
-refused CULL_MAP=2 "CULL_MAP is 2, but DENSITIES is 2, not 0" faults/post
+refused CULL_MAP=2 "CULL_MAP is 2, but DENSITIES is 1, not 0" faults/post
 refused DENSITIES=1 "CULL_MAP is 1, but DENSITIES is 1, not 0" faults/cull
 refused DENSITIES=1 "EVERY_SAMPLE is 1, but DENSITIES is 1, not 0" faults/westover
 [ "$checked" -eq 9 ]

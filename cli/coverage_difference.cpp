@@ -7,7 +7,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "base/hash_text.hpp"
 #include "base/version.hpp"
 
@@ -69,14 +68,7 @@ bool is_coverage(const std::filesystem::path& path) {
 
 CoverageDifference coverage_difference(const std::string& ref, const std::string& test) {
   const auto before = testbench::read_book(ref);
-  const auto after = testbench::read_book(test);
-  if (after.config_hash != before.config_hash) {
-    throw UserError(ExitCode::NotComparable, {.where = test,
-                                              .what = "holds coverage of another configuration",
-                                              .expected = before.config + " " + hash_text(before.config_hash),
-                                              .got = after.config + " " + hash_text(after.config_hash),
-                                              .fix = "compare files of one configuration"});
-  }
+  const auto after = testbench::read_book_for(test, before.config, before.config_hash);
   const Bins old_bins = bins_of(before), new_bins = bins_of(after);
   return {.ref = side(ref, old_bins),
           .test = side(test, new_bins),

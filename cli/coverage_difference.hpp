@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What two coverage files of one configuration have not in common: the bins that only one of them hit.
+// The bins that only one of two coverage files hit.
 #pragma once
 
 #include <filesystem>

@@ -213,15 +213,28 @@ Json to_json(const CompareResult& result) {
   return json;
 }
 
-/// Two coverage files: no limits and maps. Exit code 1 if a bin was lost.
+/// Two coverage files. Exit code 1 if a bin was lost.
 ExitCode compare_coverage(const CompareArguments& arguments, const Output& output) {
-  const std::string picture_flag = !arguments.map.empty() ? "--map" : !arguments.heat.empty() ? "--heat" : "";
-  const bool limited = arguments.min_psnr || arguments.max_lsb || arguments.max_mean_lsb || arguments.max_rmse_lsb ||
-                       arguments.max_bias_lsb || arguments.max_p99_lsb || arguments.min_ssim;
-  if (limited || !picture_flag.empty()) {
-    throw_usage({.where = limited ? "limits" : picture_flag,
+  const CompareArguments unset;
+  const std::pair<const char*, bool> of_pictures[] = {{"--lsb-bits", arguments.lsb_bits != unset.lsb_bits},
+                                                      {"--peak", arguments.peak != unset.peak},
+                                                      {"--srgb", arguments.srgb},
+                                                      {"--clusters", arguments.clusters != unset.clusters},
+                                                      {"--min-psnr", arguments.min_psnr.has_value()},
+                                                      {"--max-lsb", arguments.max_lsb.has_value()},
+                                                      {"--max-mean-lsb", arguments.max_mean_lsb.has_value()},
+                                                      {"--max-rmse-lsb", arguments.max_rmse_lsb.has_value()},
+                                                      {"--max-bias-lsb", arguments.max_bias_lsb.has_value()},
+                                                      {"--max-p99-lsb", arguments.max_p99_lsb.has_value()},
+                                                      {"--min-ssim", arguments.min_ssim.has_value()},
+                                                      {"--allow-nonfinite", arguments.allow_nonfinite},
+                                                      {"--map", !arguments.map.empty()},
+                                                      {"--heat", !arguments.heat.empty()}};
+  for (const auto& [flag, set] : of_pictures) {
+    if (!set) continue;
+    throw_usage({.where = flag,
                  .what = "means nothing for coverage files",
-                 .expected = "pictures",
+                 .expected = "images",
                  .got = arguments.ref,
                  .fix = "leave it out: a lost bin gives exit code 1 anyway"});
   }

@@ -16,8 +16,8 @@ namespace fastsplat::testbench {
 std::string closure_info(const ClosureReport& report, const std::filesystem::path& source);
 
 /// By name: config.json, sources.txt, and a tracefile each of lines, branches and functional bins. A bin is a branch of
-/// its testpoint's line in docs/verification_plan.toml; block N is the Nth configuration. A branch that is a condition
-/// has its way as its name (if, else, case).
+/// its testpoint's line in docs/verification_plan.toml; block N is the Nth configuration. Other branches are named if,
+/// else and case.
 std::map<std::string, std::string> coverview_files(const ClosureReport& report, const std::filesystem::path& source);
 
 }  // namespace fastsplat::testbench

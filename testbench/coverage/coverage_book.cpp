@@ -98,7 +98,7 @@ CoverageBook read_book_for(const std::filesystem::path& path, const std::string&
                                             .what = "holds coverage of another configuration",
                                             .expected = config + " " + hash_text(hash),
                                             .got = book.config + " " + hash_text(book.config_hash),
-                                            .fix = "name another file with --coverage"});
+                                            .fix = "name a file of that configuration"});
 }
 
 CoverageBook add_to_book(const std::filesystem::path& path, const CoverageBook& more) {

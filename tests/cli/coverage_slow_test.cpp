@@ -79,8 +79,10 @@ TEST(VerifyCoverage, TwoFilesAreCompared) {
   ASSERT_EQ(run("hazards", "small", "small.json").code, 0);
   expect_error(fastsplat({"compare", folder / "old.json", folder / "small.json"}), 4,
                {"small.json", "holds coverage of another configuration", "tiny", "small"});
-  expect_error(fastsplat({"compare", folder / "old.json", folder / "new.json", "--min-psnr", "40"}), 2,
-               {"limits", "means nothing for coverage files"});
+  for (const auto& [flag, value] : std::map<std::string, std::string>{
+           {"--min-psnr", "40"}, {"--max-lsb", "1"}, {"--map", folder / "m.png"}, {"--peak", "2"}})
+    expect_error(fastsplat({"compare", folder / "old.json", folder / "new.json", flag, value}), 2,
+                 {flag, "means nothing for coverage files"});
 }
 
 // File, expected and found content, in that order, and the fix.
@@ -97,7 +99,7 @@ TEST(VerifyCoverage, AnotherConfigurationsFileIsNamed) {
   folder.write("c.json", other.dump());
   expect_error(fastsplat(run), 4,
                {file + ": holds coverage of another configuration",
-                "expected tiny " + ours + ", got other 00000000000000ff", "name another file with --coverage"});
+                "expected tiny " + ours + ", got other 00000000000000ff", "name a file of that configuration"});
 }
 
 // Processes that add to one file at the same time: the sum is complete.
